@@ -1,0 +1,61 @@
+// A picture against independent runs of a reference renderer, aware of the reference's noise.
+// Definitions and derivations: sdk/docs/comparison.md.
+#pragma once
+
+#include "etendue/picture.h"
+#include "etendue/result.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+struct CompareOptions {
+  double max_difference = 0.01;    // relative; what `same` is asked to exclude
+  double false_alarm_rate = 1e-3;  // family-wise, over all regions and channels
+  int tiles = 4;                   // tiles x tiles
+  double dark_region = 0.05;       // regions under this part of the picture's mean are left out and listed
+  std::uint32_t samples = 0;       // the reference's samples per pixel over all seeds, for the advice in `undecided`; 0: unknown
+};
+
+enum class Verdict { same, differs, undecided };
+const char* name_of(Verdict verdict);
+
+// Channel c of region r: d = (mean ours - mean reference) / mean reference, and its standard error.
+struct RegionDifference {
+  std::string region;  // "all", "tile 2,3", "object floor", "visible emitters"
+  char channel = 'Y';  // R G B, or Y
+  double mean_ours = 0, mean_reference = 0;
+  double difference = 0, standard_error = 0;
+  std::uint64_t pixels = 0;
+  bool left_out = false;  // too dark to be judged
+};
+
+// What the difference looks like, where there is one: a hypothesis with the evidence for it.
+struct Finding {
+  std::string code;  // GLOBAL_SCALE, LIGHT_MISSING, LIGHT_DIFFERS, LIGHT_TURNED, PIXEL_FILTER, SHIFT, GAMMA, REGION
+  std::string text;  // for a reader: which light, by how much
+  double size = 0;   // the code's own measure: factor, pixels, exponent
+};
+
+struct Comparison {
+  Verdict verdict = Verdict::undecided;
+  double mean_rel = 0, rms_rel = 0, noise_rms_rel = 0, chi2_per_pixel = 0, bias_z = 0;
+  std::vector<RegionDifference> regions;
+  std::vector<Finding> findings;
+  std::optional<std::uint64_t> samples_needed;  // when undecided: about how many would tell
+  int seeds = 0;
+};
+
+// The reference as K independent runs of equal samples, K >= 5 (REFERENCE_TOO_FEW_SEEDS). All linear, same size (PICTURE_SIZE_MISMATCH).
+// Result: layers "", "variance" (of the mean) and "etendue:seeds" among the numbers.
+Result<Picture> pool(const std::vector<Picture>& runs);
+
+// `reference` as pool() makes it; `ours` with its "variance", "object" and "emitter" layers where it has them.
+// `object_names` name the regions of the object layer. `light`: compares the layers "light.NAME" of both instead of the pictures.
+Result<Comparison> compare(const Picture& ours, const Picture& reference, const CompareOptions& options,
+                           const std::vector<std::string>& object_names = {}, const std::string& light = "");
+
+}  // namespace etendue

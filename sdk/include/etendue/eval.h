@@ -1,0 +1,174 @@
+// Light at a point: BRDFs, emitters in world space, and the reference that every faster method is held to.
+// Nothing here knows a scene: see render.h for pictures with shadows.
+#pragma once
+
+#include "etendue/light.h"
+#include "etendue/material.h"
+#include "etendue/vec.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <variant>
+#include <vector>
+
+namespace etendue::eval {
+
+// ---- Surfaces ----
+
+// Diffuse lobes alone, white-based: Disney 2012 and Frostbite's renormalised form of it.
+struct DisneyDiffuse {
+  Rgb base_colour{1, 1, 1};
+  double roughness = 0.5;
+};
+struct FrostbiteDiffuse {
+  Rgb base_colour{1, 1, 1};
+  double roughness = 0.5;
+};
+// The specular lobe alone: GGX with Schlick's Fresnel.
+struct GgxLobe {
+  double alpha = 0.25;
+  Rgb f0{0.04, 0.04, 0.04};
+  double f90 = 1;
+  Masking masking = Masking::correlated;
+};
+// A BRDF with every parameter resolved at one point.
+using Brdf = std::variant<Lambert, Principled, Standard, Conductor, MetalRough, DisneyDiffuse, FrostbiteDiffuse, GgxLobe>;
+
+// BRDF times cosine of `light`, 1/sr. Unit vectors in the shading frame (z is the normal). 0 if either is below the horizon.
+Rgb brdf_cos(const Brdf& brdf, const Vec3d& view, const Vec3d& light);
+
+// Density (1/sr) with which sample_brdf picks `light`, and the choice itself from u in [0,1)^2. pdf 0: no direction.
+double pdf_brdf(const Brdf& brdf, const Vec3d& view, const Vec3d& light);
+struct DirectionSample {
+  Vec3d direction;
+  double pdf = 0;
+};
+DirectionSample sample_brdf(const Brdf& brdf, const Vec3d& view, const Vec2d& u);
+
+struct ShadingPoint {
+  Vec3d position;
+  Vec3d normal;          // of the shading frame: interpolated and perturbed by a normal map
+  Vec3d surface_normal;  // interpolated only: light below its horizon does not count either
+  Vec3d view;            // unit, from the point to the eye
+  Brdf brdf;
+};
+
+// ---- Emitters ----
+
+// What multiplies a light by distance (light.h), with its range; the window of an area light is taken at the emitting point.
+struct Window {
+  Falloff falloff = Falloff::inverse_square;
+  double range_m = 0;  // 0: no range
+};
+double window_at(const Window& window, double distance_m);
+
+// Emission pattern over a planar emitter's own uv in [0,1]^2; multiplies the radiance.
+using Pattern = std::function<Rgb(Vec2d uv)>;
+
+struct PunctualEmitter {
+  Vec3d position;
+  Transform frame;  // rigid; emission along its -Z
+  Rgb intensity;    // cd on the axis
+  std::variant<PointShape, SpotShape, FrustumShape> shape;
+};
+struct DistantEmitter {
+  Vec3d towards;          // unit, from any point to the light
+  Rgb illuminance;        // lx facing it
+  double radius_rad = 0;  // angular radius; > 0: a uniform disk of that illuminance
+};
+struct SphereEmitter {
+  Vec3d centre;
+  double radius;
+};
+struct DiskEmitter {
+  Vec3d centre, normal;  // normal: the emitting side
+  Vec3d x;               // unit, where uv starts
+  double radius;
+};
+struct PolygonEmitter {
+  std::vector<Vec3d> vertices;  // counter-clockwise seen from the emitting side; simple, planar
+  Vec3d normal;
+  std::array<Vec3d, 3> uv_frame;  // origin, u and v vectors: point = origin + u du + v dv
+};
+struct TubeEmitter {
+  Vec3d a, b;  // centres of the caps
+  double radius;
+  Caps caps;
+};
+struct LineEmitter {
+  Vec3d a, b;
+  Rgb intensity;  // cd, perpendicular to the line
+};
+struct MeshEmitter {
+  std::vector<std::array<Vec3d, 3>> triangles;  // emit on the counter-clockwise side
+};
+// Latitude-longitude map; bilinear, texel-centred, periodic in u, rows clamped at the poles. Built once.
+class EnvironmentMap;
+struct EnvironmentEmitter {
+  std::shared_ptr<const EnvironmentMap> map;  // none: constant
+  Transform to_local;                         // rotation from world to the map (+Z in the centre column, +X at u = .25, +Y up)
+};
+using EmitterShape = std::variant<PunctualEmitter, DistantEmitter, SphereEmitter, DiskEmitter, PolygonEmitter, TubeEmitter, LineEmitter,
+                                  MeshEmitter, EnvironmentEmitter>;
+
+struct Emitter {
+  EmitterShape shape;
+  Rgb radiance;  // cd/m2 on the emitting side (area and environment lights)
+  bool two_sided = false;
+  Window window;
+  Pattern pattern;  // may be empty
+};
+
+// The parts of an emitter that only the owner of meshes and pictures can give.
+struct EmitterParts {
+  std::vector<std::array<Vec3d, 3>> triangles;  // mesh lights, in the light's own frame (scale not applied)
+  std::shared_ptr<const EnvironmentMap> environment;
+  Pattern pattern;
+};
+// Errors as resolve(). Photometric lights: EVALUATION_UNSUPPORTED.
+Result<Emitter> emitter_of(const Light& light, const EmitterParts& parts = {});
+
+// width * height linear RGB in cd/m2, row 0 at the top (+Y).
+std::shared_ptr<const EnvironmentMap> make_environment(std::uint32_t width, std::uint32_t height, std::vector<Vec3f> pixels);
+Rgb lookup(const EnvironmentMap& map, const Vec3d& local_direction);
+double mean_luminance(const EnvironmentMap& map);  // over the sphere
+
+// ---- Light at a point, nothing in between ----
+
+struct Tolerance {
+  double relative = 1e-6;
+  double absolute = 0;  // cd/m2; the larger of both is aimed at
+};
+struct Estimate {
+  Rgb value;                      // luminance towards the view, cd/m2
+  Rgb error;                      // bound that the method vouches for, same unit
+  std::uint64_t evaluations = 0;  // of the BRDF
+};
+
+// Double precision, adaptive over the exact silhouette, clipped at both horizons: the definition of the answer.
+// Environment maps are integrated by importance sampling and carry the statistical error (3 standard deviations).
+Estimate reference(const Emitter& emitter, const ShadingPoint& point, const Tolerance& tolerance);
+
+// Cosine integral of the light's luminance (lux) in closed form: sphere, disk, polygon, tube with round caps, mesh, punctual and distant
+// lights without pattern; `reference` with a white Lambert surface where there is none. Not below the horizon of `normal`.
+Rgb illuminance(const Emitter& emitter, const Vec3d& position, const Vec3d& normal);
+
+// ---- Sampling, for visibility ----
+
+// A direction towards the emitter and what comes from there. delta: the only one (punctual and true directions), value is illuminance
+// facing it.
+struct LightSample {
+  Vec3d direction;      // unit, from the point
+  double distance = 0;  // to the emitting point; infinite for distant lights and environments
+  double pdf = 0;       // 1/sr; 0: no sample
+  Rgb radiance;         // cd/m2 from there (lx if delta), window and pattern included
+  bool delta = false;
+};
+LightSample sample_light(const Emitter& emitter, const Vec3d& position, const Vec2d& u);
+// Density with which sample_light picks a direction (0 if the ray misses the light), and the radiance and distance that the ray meets.
+LightSample light_along(const Emitter& emitter, const Vec3d& position, const Vec3d& direction);
+
+}  // namespace etendue::eval

@@ -1,0 +1,135 @@
+// Lights as authored: shape, emission in the unit it was given in, colour; and their resolution to what they emit.
+#pragma once
+
+#include "etendue/colour.h"
+#include "etendue/image.h"
+#include "etendue/result.h"
+#include "etendue/units.h"
+#include "etendue/vec.h"
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace etendue {
+
+// Every light emits along its own -Z (glTF). Lengths in metres, angles in radians.
+struct PointShape {};
+struct SpotShape {
+  double inner_rad = 0, outer_rad = pi / 4;  // half angles, 0 <= inner <= outer <= pi/2
+};
+struct FrustumShape {
+  double width_rad = 0, height_rad = 0;  // full angles, each < pi
+};
+struct DistantShape {
+  double diameter_rad = 0;  // angular diameter; 0 is a true direction
+};
+struct SphereShape {
+  double radius = 0;
+};
+struct DiskShape {
+  double radius = 0;
+};
+struct RectShape {
+  double width = 0, height = 0;  // along X and Y
+};
+struct PolygonShape {
+  std::vector<Vec2d> points;  // simple, in the light's XY plane, any winding: it emits towards -Z
+};
+enum class Caps { round, flat, none };
+struct TubeShape {
+  double length = 0, radius = 0;  // between the centres of the caps, along X
+  Caps caps = Caps::round;
+};
+struct LineShape {
+  double length = 0;  // along X; I(theta) = flux sin(theta) / pi^2
+};
+struct MeshShape {
+  std::uint32_t mesh = 0;  // index into Scene::meshes; emits on the counter-clockwise side
+  Vec3d scale{1, 1, 1};    // applied before the light's transform, so that this stays rigid
+};
+struct PhotometricShape {
+  std::string file;  // .ies or .ldt
+};
+struct EnvironmentShape {
+  std::optional<std::uint32_t> image;  // index into Scene::images, latitude-longitude; none: constant
+};
+using Shape = std::variant<PointShape, SpotShape, FrustumShape, DistantShape, SphereShape, DiskShape, RectShape, PolygonShape, TubeShape,
+                           LineShape, MeshShape, PhotometricShape, EnvironmentShape>;
+const char* name_of(const Shape& shape);  // the rig file's "type"
+
+// What was given for the light's total or its density.
+struct Emission {
+  enum class Given { flux, intensity, luminance, illuminance, ev, as_file } given = Given::as_file;
+  double value = 0;      // photometric or radiometric SI; EV100 for `ev`
+  bool radiant = false;  // value is the radiometric twin: efficacy is then required
+  std::optional<double> efficacy_lm_W;
+  std::optional<double> distance_m;  // for `illuminance` of anything but a distant light
+  std::optional<Texture> texture;    // beside it; see sdk/docs/rig.md for its orientation
+};
+
+struct RgbColour {
+  Rgb rgb{1, 1, 1};
+};
+struct TemperatureColour {
+  double kelvin = 6500;
+};
+struct DaylightColour {
+  double kelvin = 6504;
+};
+// Chromaticity alone: scaled to Y = 1 when the light is resolved.
+using LightColour = std::variant<RgbColour, TemperatureColour, DaylightColour>;
+
+// Distance windows: what multiplies 1/d^2 (and, for area lights, the unwindowed light).
+enum class Falloff {
+  inverse_square,  // none: the window is 1
+  frostbite,       // saturate(1 - (d/r)^4)^2                 (Lagarde and de Rousiers, eq 26)
+  gltf             // clamp(1 - (d/r)^4, 0, 1)                (KHR_lights_punctual)
+};
+
+// How the flux of a spot becomes intensity (CLI.md, --spot-flux).
+enum class FluxConvention { falloff, cone, frostbite_pi, isotropic };
+
+struct Light {
+  std::string name;
+  Shape shape;
+  Emission emission;
+  LightColour colour;
+  Rgb filter{1, 1, 1};
+  bool two_sided = false;
+  bool visible = true;  // the camera sees an area light, and it occludes
+  std::optional<double> range_m;
+  Falloff falloff = Falloff::inverse_square;
+  FluxConvention flux_convention = FluxConvention::falloff;
+  Transform transform;  // rigid
+  std::string source;   // where it came from: "/extensions/KHR_lights_punctual/lights/0"
+};
+
+// What the light sends out once units, colour and filter are applied, as linear Rec.709 whose Y is photometric.
+struct Resolved {
+  enum class Kind {
+    intensity,    // cd, on the axis (point, spot), along the normal direction (frustum: anywhere inside)
+    luminance,    // cd/m2 at the surface, or of the sky; a sun disk's too
+    illuminance,  // lx on a plane facing a true direction
+    line          // cd, perpendicular to a line light
+  } kind = Kind::luminance;
+  Rgb rgb;
+  double flux_lm = 0;  // total, Y of it; infinite never: 0 where a total makes no sense (distant, environment)
+  double area_m2 = 0;  // emitting area, both sides if two-sided; 0 for punctual lights
+};
+
+// Area of one side of a shape (mesh lights: `mesh_area` of the scaled mesh), steradians of a spot's or frustum's emission for its axial
+// intensity.
+Result<double> emitting_area(const Light& light, double mesh_area_m2 = 0);
+double solid_angle_of(const SpotShape& spot, FluxConvention convention);
+double solid_angle_of(const FrustumShape& frustum);
+
+// Units to what is emitted. Missing information is an error that names it: SIZE_MISSING, DISTANCE_MISSING, EFFICACY_MISSING,
+// UNIT_UNSUITABLE. `mesh_area_m2` is needed for mesh lights in lumens. Environment with `as_file`: rgb is the factor on the file's cd/m2.
+Result<Resolved> resolve(const Light& light, double mesh_area_m2 = 0);
+
+// The colour alone: linear Rec.709 with Y = 1.
+Result<Rgb> rgb_of(const LightColour& colour);
+
+}  // namespace etendue

@@ -1,0 +1,41 @@
+// Direct-light pictures of a scene: primary rays and visibility through Embree, light from eval.h.
+#pragma once
+
+#include "etendue/io.h"
+#include "etendue/picture.h"
+#include "etendue/scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace etendue {
+
+struct RenderOptions {
+  std::uint32_t width = 512, height = 512;
+  std::uint32_t camera = 0;        // index into Scene::cameras
+  std::vector<std::uint32_t> lit;  // lights that emit, by index; empty: all. The others keep their shapes and are black.
+  bool mitsuba_model = false;      // materials as mitsuba_twin() has them, windows of ranges off: what the exporter writes
+  // What need not be resolved: the relative noise (standard deviation over value) per pixel of the picture that ours is compared
+  // with, for one light. Shading and shadows are computed to a tenth of it. 0.01 suits a picture to look at.
+  double expected_noise = 0.01;
+  unsigned threads = 0;    // 0: all cores
+  std::uint64_t seed = 1;  // of the shadow estimates
+};
+
+struct RenderStats {
+  std::uint64_t primary_rays = 0, shadow_rays = 0, evaluations = 0;
+  std::uint64_t smooth_pixels = 0, split_pixels = 0;
+  std::uint64_t images_decoded = 0;
+  double seconds = 0;
+};
+
+struct Rendered {
+  Picture picture;  // every layer that picture.h names
+  RenderStats stats;
+  Diagnostics diagnostics;
+};
+
+// Errors: SCENE_INVALID (validate() found errors), CAMERA_MISSING, EVALUATION_UNSUPPORTED, CANCELLED, FILE_UNREADABLE (a texture).
+Result<Rendered> render(const Scene& scene, const RenderOptions& options, Progress* progress = nullptr);
+
+}  // namespace etendue
