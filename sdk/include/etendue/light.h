@@ -7,6 +7,7 @@
 #include "etendue/units.h"
 #include "etendue/vec.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -103,6 +104,9 @@ struct Light {
   Falloff falloff = Falloff::inverse_square;
   FluxConvention flux_convention = FluxConvention::falloff;
   Transform transform;  // rigid
+  // A mesh light that is also a surface (glTF's emissive materials): index into Scene::materials of what it reflects; none: black.
+  // There is no Object beside it. Front and texture coordinates are those of the mesh.
+  std::optional<std::uint32_t> surface_material;
   std::string source;   // where it came from: "/extensions/KHR_lights_punctual/lights/0"
 };
 

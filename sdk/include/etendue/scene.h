@@ -17,7 +17,9 @@ namespace etendue {
 
 inline constexpr std::uint32_t no_index = 0xffffffffu;
 
-// Indexed triangles. `normals`, `uvs` are per vertex or empty; without normals the mesh is flat-shaded.
+// Indexed triangles. `normals`, `uvs` are per vertex or empty; without normals the mesh is flat-shaded. Where a file has several sets of
+// texture coordinates, `uvs` is the one that the mesh's material uses. A mirroring transform does not swap the sides: what was the front
+// stays the front (glTF).
 struct Mesh {
   std::string name;
   std::vector<Vec3f> positions;
