@@ -1,0 +1,96 @@
+#include "etendue/picture.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <string_view>
+
+namespace etendue {
+namespace {
+
+constexpr std::uint64_t max_side = 1u << 20;
+
+// IEC 61966-2-1.
+double srgb_to_linear(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+
+// OpenImageIO chooses the reader by a file name: the one that the first bytes ask for.
+const char* name_for_reader(std::span<const std::uint8_t> bytes) {
+  const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 12));
+  if (head.substr(0, 4) == "\x89PNG") return "embedded.png";
+  if (head.substr(0, 2) == "\xff\xd8") return "embedded.jpg";
+  if (head.substr(0, 4) == "\x76\x2f\x31\x01") return "embedded.exr";
+  if (head.substr(0, 4) == "RIFF" && head.substr(8, 4) == "WEBP") return "embedded.webp";
+  if (head.substr(0, 2) == "#?") return "embedded.hdr";
+  return nullptr;
+}
+
+std::string shown_name(const ImageRef& image) {
+  if (!image.file.empty()) return image.file;
+  return image.name.empty() ? "embedded image" : image.name;
+}
+
+Error unreadable(const ImageRef& image, std::string text) {
+  return {"FILE_UNREADABLE", "expected an image that OpenImageIO can read: " + std::move(text), {shown_name(image), 0, 0, {}}, {}, {}};
+}
+
+// Numbers of the file to red, green, blue, alpha.
+DecodedImage spread(const std::vector<float>& values, const OIIO::ImageSpec& spec, bool srgb) {
+  DecodedImage out{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}};
+  const auto channels = static_cast<std::size_t>(spec.nchannels);
+  const std::size_t pixels = std::size_t{out.width} * out.height;
+  const bool has_alpha = channels == 2 || channels >= 4;
+  out.rgba.resize(pixels * 4);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const float* in = values.data() + i * channels;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float v = in[channels < 3 ? 0 : c];
+      out.rgba[i * 4 + c] = srgb ? static_cast<float>(srgb_to_linear(v)) : v;
+    }
+    out.rgba[i * 4 + 3] = has_alpha ? in[channels == 2 ? 1 : 3] : 1.0f;
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<DecodedImage> decode(const ImageRef& image, Encoding encoding, std::uint64_t max_pixels) {
+  OIIO::ImageSpec config;
+  config["oiio:UnassociatedAlpha"] = 1;                   // colours as stored, not multiplied by alpha
+  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;  // outlives its reader
+  std::unique_ptr<OIIO::ImageInput> input;
+  if (image.embedded) {
+    const char* name = name_for_reader(*image.embedded);
+    if (name == nullptr) return unreadable(image, "the first bytes are those of no known format");
+    memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::uint8_t*>(image.embedded->data()), image.embedded->size());
+    OIIO::Filesystem::IOProxy* proxy = memory.get();
+    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<void*>(&proxy));
+    input = OIIO::ImageInput::open(name, &config, proxy);
+  } else {
+    input = OIIO::ImageInput::open(image.file, &config);
+  }
+  if (!input) return unreadable(image, OIIO::geterror());
+  const OIIO::ImageSpec spec = input->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 64) {
+    return unreadable(image, "expected a flat image of 1 to 64 channels");
+  }
+  const auto width = static_cast<std::uint64_t>(spec.width);
+  const auto height = static_cast<std::uint64_t>(spec.height);
+  if (width > max_side || height > max_side || width * height > max_pixels) {
+    return Error{
+        "PICTURE_UNSUITABLE",
+        "expected at most " + std::to_string(max_pixels) + " pixels, found " + std::to_string(width) + " x " + std::to_string(height),
+        {shown_name(image), 0, 0, {}},
+        {},
+        {}};
+  }
+  std::vector<float> values(width * height * static_cast<std::uint64_t>(spec.nchannels));
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) return unreadable(image, input->geterror());
+  // Files of floating-point numbers are linear whatever the slot says, as in Mitsuba's bitmap.
+  return spread(values, spec, encoding == Encoding::srgb && !spec.format.is_floating_point());
+}
+
+}  // namespace etendue

@@ -1,0 +1,202 @@
+#include "etendue/picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace etendue {
+namespace {
+
+std::filesystem::path temporary(const std::string& name) { return std::filesystem::path(testing::TempDir()) / name; }
+
+Picture two_by_three() {
+  Picture p;
+  p.width = 2;
+  p.height = 3;
+  Layer& beauty = p.add("", 3);
+  for (std::size_t i = 0; i < beauty.pixels.size(); ++i) beauty.pixels[i] = 0.1f * static_cast<float>(i) + 1e6f;
+  Layer& light = p.add("light.key lamp", 3);
+  for (std::size_t i = 0; i < light.pixels.size(); ++i) light.pixels[i] = -1.5f * static_cast<float>(i);
+  Layer& object = p.add("object", 1);
+  for (std::size_t i = 0; i < object.pixels.size(); ++i) object.pixels[i] = static_cast<float>(i);
+  return p;
+}
+
+TEST(Exr, AllLayersAndAttributesComeBack) {
+  Picture p = two_by_three();
+  p.numbers = {{"expTime", 1.0 / 64}, {"aperture", 2.0}, {"isoSpeed", 400}, {"etendue:seeds", 16}, {"etendue:tenth", 0.1}};
+  p.texts = {{"comments", "direct light"}, {"etendue:scene", "kitchen.rig.json"}};
+  const auto file = temporary("layers.exr");
+  const Status written = write_exr(p, file);
+  ASSERT_TRUE(written.ok()) << written.error().text;
+  const Result<Picture> back = read_exr(file);
+  ASSERT_TRUE(back.ok()) << back.error().text;
+  EXPECT_EQ(back->width, 2u);
+  EXPECT_EQ(back->height, 3u);
+  EXPECT_EQ(back->layers.size(), 3u);
+  for (const Layer& layer : p.layers) {
+    const Layer* found = back->find(layer.name);
+    ASSERT_NE(found, nullptr) << layer.name;
+    EXPECT_EQ(found->channels, layer.channels);
+    EXPECT_EQ(found->pixels, layer.pixels);  // float32 is stored without loss
+  }
+  EXPECT_EQ(back->numbers.at("whiteLuminance"), 1.0);  // pixels are cd/m2
+  EXPECT_EQ(back->numbers.at("expTime"), 1.0 / 64);
+  EXPECT_EQ(back->numbers.at("aperture"), 2.0);
+  EXPECT_EQ(back->numbers.at("isoSpeed"), 400.0);
+  EXPECT_EQ(back->numbers.at("etendue:seeds"), 16.0);
+  EXPECT_EQ(back->numbers.at("etendue:tenth"), 0.1);  // ours keep all digits
+  EXPECT_EQ(back->texts.at("comments"), "direct light");
+  EXPECT_EQ(back->texts.at("etendue:scene"), "kitchen.rig.json");
+}
+
+TEST(Exr, RefusesWhatIsNotAPicture) {
+  const auto file = temporary("not.exr");
+  std::ofstream(file) << "this is no picture at all";
+  const Result<Picture> read = read_exr(file);
+  ASSERT_FALSE(read.ok());
+  EXPECT_EQ(read.error().code, "PICTURE_UNSUITABLE");
+  EXPECT_EQ(read.error().where.file, file.string());
+  EXPECT_EQ(read_exr(temporary("absent.exr")).error().code, "FILE_UNREADABLE");
+}
+
+TEST(Exr, RefusesATruncatedFile) {
+  const auto file = temporary("truncated.exr");
+  ASSERT_TRUE(write_exr(two_by_three(), file).ok());
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 20);
+  EXPECT_FALSE(read_exr(file).ok());
+}
+
+TEST(Exr, WritesNothingWhenThePictureIsInconsistent) {
+  Picture p = two_by_three();
+  p.layers[1].pixels.pop_back();
+  const auto file = temporary("never.exr");
+  std::filesystem::remove(file);
+  EXPECT_EQ(write_exr(p, file).error().code, "PICTURE_UNSUITABLE");
+  EXPECT_FALSE(std::filesystem::exists(file));
+  p = two_by_three();
+  p.numbers["channels"] = 1;
+  EXPECT_EQ(write_exr(p, file).error().code, "PICTURE_UNSUITABLE");
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(Layers, NamesThatWouldSplitAChannelAreMadeSafe) {
+  EXPECT_EQ(layer_safe("key.001"), "key_001");
+  EXPECT_EQ(layer_safe("a\nb\x7f"), "a_b_");
+  EXPECT_EQ(layer_safe("K\xc3\xbc"
+                       "che 2"),
+            "K\xc3\xbc"
+            "che 2");
+}
+
+// A picture in the portable pixmap format, 8 bits a channel.
+ImageRef pixmap(const std::string& name, int width, int height, const std::vector<unsigned char>& bytes) {
+  const auto file = temporary(name);
+  std::ofstream out(file, std::ios::binary);
+  out << "P6\n" << width << ' ' << height << "\n255\n";
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  return {file.string(), nullptr, "", name};
+}
+
+TEST(Decode, SrgbHasTheStandardsValues) {
+  // IEC 61966-2-1: 0 and 1 are fixed points; 188 is near the middle, .5029; 10/255 lies on the straight part, 10/255/12.92.
+  const ImageRef image = pixmap("srgb.ppm", 2, 2, {0, 255, 188, 10, 11, 128, 1, 2, 3, 4, 5, 6});
+  const Result<DecodedImage> d = decode(image, Encoding::srgb);
+  ASSERT_TRUE(d.ok()) << d.error().text;
+  ASSERT_EQ(d->rgba.size(), 16u);
+  EXPECT_EQ(d->rgba[0], 0.0f);
+  EXPECT_EQ(d->rgba[1], 1.0f);
+  EXPECT_NEAR(d->rgba[2], 0.5028865, 1e-6);
+  EXPECT_EQ(d->rgba[3], 1.0f);  // no alpha in the file
+  EXPECT_NEAR(d->rgba[4], 10 / 255.0 / 12.92, 1e-8);
+  EXPECT_NEAR(d->rgba[5], 0.0033465, 1e-6);
+  EXPECT_NEAR(d->rgba[6], 0.2158605, 1e-6);
+  const Result<DecodedImage> raw = decode(image, Encoding::linear);
+  ASSERT_TRUE(raw.ok());
+  EXPECT_NEAR(raw->rgba[2], 188 / 255.0, 1e-7);
+}
+
+TEST(Decode, RefusesTooLargeAndUnknown) {
+  const ImageRef image = pixmap("large.ppm", 2, 2, std::vector<unsigned char>(12));
+  EXPECT_EQ(decode(image, Encoding::linear, 3).error().code, "PICTURE_UNSUITABLE");
+  EXPECT_EQ(decode({"absent.png", nullptr, "", ""}, Encoding::linear).error().code, "FILE_UNREADABLE");
+  const auto junk = std::make_shared<const std::vector<std::uint8_t>>(std::vector<std::uint8_t>{1, 2, 3});
+  EXPECT_EQ(decode({"", junk, "image/png", "junk"}, Encoding::linear).error().code, "FILE_UNREADABLE");
+}
+
+TEST(Decode, EmbeddedBytesKeepColoursUnderTransparentAlpha) {
+  // A 1 x 1 PNG of 8-bit RGBA (200, 100, 50, 0): the colour must not be multiplied by alpha.
+  const auto png = std::make_shared<const std::vector<std::uint8_t>>(
+      std::vector<std::uint8_t>{0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
+                                0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x06, 0x00, 0x00, 0x00, 0x1f, 0x15, 0xc4, 0x89, 0x00, 0x00, 0x00,
+                                0x0d, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x38, 0x91, 0x62, 0xc4, 0x00, 0x00, 0x04, 0xb5, 0x01, 0x5f,
+                                0xa0, 0x8d, 0x80, 0xd0, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82});
+  const Result<DecodedImage> d = decode({"", png, "image/png", "dot"}, Encoding::linear);
+  ASSERT_TRUE(d.ok()) << d.error().text;
+  EXPECT_NEAR(d->rgba[0], 200 / 255.0, 1e-6);
+  EXPECT_NEAR(d->rgba[1], 100 / 255.0, 1e-6);
+  EXPECT_NEAR(d->rgba[2], 50 / 255.0, 1e-6);
+  EXPECT_EQ(d->rgba[3], 0.0f);
+}
+
+// Red is the column, green the row.
+DecodedImage ramp() {
+  DecodedImage d{4, 2, {}};
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 4; ++x) d.rgba.insert(d.rgba.end(), {static_cast<float>(x), static_cast<float>(y), 0.0f, 1.0f});
+  }
+  return d;
+}
+
+TEST(Sample, TexelCentresAndTheirMiddles) {
+  const DecodedImage d = ramp();
+  Texture t;
+  t.wrap_u = t.wrap_v = Wrap::clamp;
+  EXPECT_DOUBLE_EQ(sample(d, t, {0.5 / 4, 0.25}).r, 0);
+  EXPECT_DOUBLE_EQ(sample(d, t, {1.5 / 4, 0.25}).r, 1);
+  EXPECT_DOUBLE_EQ(sample(d, t, {2.0 / 4, 0.25}).r, 1.5);
+  EXPECT_DOUBLE_EQ(sample(d, t, {0.5, 0.25}).g, 0);  // v = 0 is the first row
+  EXPECT_DOUBLE_EQ(sample(d, t, {0.5, 0.75}).g, 1);
+  EXPECT_DOUBLE_EQ(sample(d, t, {0.5, 0.5}).g, 0.5);
+}
+
+TEST(Sample, WrapModes) {
+  const DecodedImage d = ramp();
+  Texture t;
+  t.wrap_v = Wrap::clamp;
+  t.wrap_u = Wrap::clamp;
+  EXPECT_DOUBLE_EQ(sample(d, t, {0, 0}).r, 0);
+  EXPECT_DOUBLE_EQ(sample(d, t, {7.3, -5}).r, 3);
+  t.wrap_u = Wrap::repeat;
+  EXPECT_DOUBLE_EQ(sample(d, t, {0, 0}).r, 1.5);  // half of column 3, half of column 0
+  EXPECT_DOUBLE_EQ(sample(d, t, {-1 + 1.5 / 4, 0}).r, 1);
+  EXPECT_DOUBLE_EQ(sample(d, t, {3 + 2.5 / 4, 0}).r, 2);
+  EXPECT_DOUBLE_EQ(sample(d, t, {65536 + 2.5 / 4, 0}).r, 2);
+  t.wrap_u = Wrap::mirror;
+  EXPECT_DOUBLE_EQ(sample(d, t, {0, 0}).r, 0);
+  EXPECT_DOUBLE_EQ(sample(d, t, {1 + 0.5 / 4, 0}).r, 3);
+  EXPECT_DOUBLE_EQ(sample(d, t, {-2.5 / 4, 0}).r, 2);
+  EXPECT_DOUBLE_EQ(sample(d, t, {65537 + 0.5 / 4, 0}).r, 3);
+}
+
+TEST(Sample, NearestTransformAndNonsense) {
+  const DecodedImage d = ramp();
+  Texture t;
+  t.nearest = true;
+  EXPECT_EQ(sample(d, t, {0.74, 0.4}).r, 2);
+  EXPECT_EQ(sample(d, t, {0.76, 0.6}).r, 3);
+  EXPECT_EQ(sample(d, t, {0.76, 0.6}).g, 1);
+  t.uv_transform[0][0] = 0;
+  t.uv_transform[0][1] = 1;  // u' = v + 1/4
+  t.uv_transform[0][2] = 0.25;
+  EXPECT_EQ(sample(d, t, {0, 0.3}).r, 2);
+  const Rgba nonsense = sample(d, t, {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()});
+  EXPECT_TRUE(std::isfinite(nonsense.r));
+  EXPECT_TRUE(std::isfinite(sample(d, t, {1e300, -1e300}).g));
+}
+
+}  // namespace
+}  // namespace etendue
