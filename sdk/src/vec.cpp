@@ -22,7 +22,8 @@ Transform Transform::from_column_major(const std::array<double, 16>& m) {
   return {{Vec3d{m[0], m[1], m[2]}, Vec3d{m[4], m[5], m[6]}, Vec3d{m[8], m[9], m[10]}}, {m[12], m[13], m[14]}};
 }
 
-// The cofactor matrix maps normals for every invertible map (n' = det(M) M^-T n); the sign of the determinant keeps mirrored maps on the same side.
+// The cofactor matrix maps normals for every invertible map (n' = det(M) M^-T n); the sign of the determinant keeps mirrored maps on the
+// same side.
 Vec3d Transform::normal(const Vec3d& n) const {
   const Vec3d cofactor = cross(columns[1], columns[2]) * n.x + cross(columns[2], columns[0]) * n.y + cross(columns[0], columns[1]) * n.z;
   return determinant() < 0 ? -cofactor : cofactor;

@@ -20,11 +20,13 @@ Result<Chromaticity> planckian(double temperature_K);
 // CIE daylight (CIE 015): 4000 K to 25000 K; TEMPERATURE_OUT_OF_RANGE.
 Result<Chromaticity> daylight(double temperature_K);
 
-// Linear Rec.709 with Y = 1, no adaptation, negative channels kept. y must be > 0.
+// Linear Rec.709 with luminance_of = 1 exactly (up to rounding), no adaptation, negative channels kept. The matrix is derived from the
+// primaries and D65 = (.3127, .3290). Black for a chromaticity without luminance (y <= 0).
 Rgb to_rgb(const Chromaticity& xy);
+// (0, 0) for black.
 Chromaticity to_chromaticity(const Rgb& rgb);
 
-// A colour moved into the gamut (no negative channel) at the same Y.
+// A colour moved into the gamut (no negative channel) at the same Y: clipped, then rescaled. Black if Y <= 0.
 Rgb clipped_keeping_luminance(const Rgb& rgb);
 
 }  // namespace etendue

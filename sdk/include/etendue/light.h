@@ -107,7 +107,7 @@ struct Light {
   // A mesh light that is also a surface (glTF's emissive materials): index into Scene::materials of what it reflects; none: black.
   // There is no Object beside it. Front and texture coordinates are those of the mesh.
   std::optional<std::uint32_t> surface_material;
-  std::string source;   // where it came from: "/extensions/KHR_lights_punctual/lights/0"
+  std::string source;  // where it came from: "/extensions/KHR_lights_punctual/lights/0"
 };
 
 // What the light sends out once units, colour and filter are applied, as linear Rec.709 whose Y is photometric.
@@ -125,12 +125,21 @@ struct Resolved {
 
 // Area of one side of a shape (mesh lights: `mesh_area` of the scaled mesh), steradians of a spot's or frustum's emission for its axial
 // intensity.
+// Errors: UNIT_UNSUITABLE (no surface), SIZE_MISSING.
 Result<double> emitting_area(const Light& light, double mesh_area_m2 = 0);
 double solid_angle_of(const SpotShape& spot, FluxConvention convention);
 double solid_angle_of(const FrustumShape& frustum);
 
+// Whether `two_sided` doubles the emitting area: planar and mesh lights alone. The inside of a sphere or a tube is never seen.
+bool emits_both_sides(const Light& light);
+
 // Units to what is emitted. Missing information is an error that names it: SIZE_MISSING, DISTANCE_MISSING, EFFICACY_MISSING,
-// UNIT_UNSUITABLE. `mesh_area_m2` is needed for mesh lights in lumens. Environment with `as_file`: rgb is the factor on the file's cd/m2.
+// UNIT_UNSUITABLE, EMISSION_MISSING, NUMBER_INVALID, COLOUR_INVALID, TEMPERATURE_OUT_OF_RANGE. `intensity` is the one along the light's
+// axis, of tubes and lines perpendicular to theirs. `illuminance` is at `distance_m` from the light's origin along that direction, on a
+// plane facing it, exact for every shape, without the distance window; meshes have neither. `mesh_area_m2` is needed for mesh lights in
+// lumens. Environment with `as_file`: rgb is the factor on the file's cd/m2; with an image and a value: rgb is the mean over the sphere
+// that the image is to be scaled to. Photometric: rgb is the factor on the file's candelas, flux_lm the total that it is to be scaled to
+// (0: the file's own).
 Result<Resolved> resolve(const Light& light, double mesh_area_m2 = 0);
 
 // The colour alone: linear Rec.709 with Y = 1.

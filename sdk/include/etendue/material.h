@@ -40,7 +40,8 @@ struct Conductor {
   double alpha = 0.1;
   Masking masking = Masking::separable;
 };
-// Normal-incidence reflectance as a real index: eta = (1 + sqrt f0) / (1 - sqrt f0), k = 0 (Gulbrandsen 2014 with edge tint 0). f0 < 1.
+// Normal-incidence reflectance as a real index: eta = (1 + sqrt f0) / (1 - sqrt f0), k = 0 (Gulbrandsen 2014 with edge tint 0). f0 is
+// clamped to [0, .999999].
 Conductor conductor_from_f0(const Rgb& f0, double alpha);
 
 // glTF 2.0 metallic-roughness (appendix B), dielectric f0 = .04 (or KHR_materials_ior).
@@ -74,8 +75,8 @@ struct Material {
   std::string source;
 };
 
-// The material as Mitsuba's built-ins render it: MetalRough and Standard become Principled (specular = f0 / .08), the others stay as they
-// are.
+// The material as Mitsuba's built-ins render it: MetalRough and Standard become Principled (specular = f0 / .08, at least 1e-4 for
+// metals, which Mitsuba renders black without), the others stay as they are.
 Material mitsuba_twin(const Material& material);
 
 }  // namespace etendue

@@ -84,6 +84,7 @@ Result<double> parse_si(std::string_view text, Dimension expected);
 std::string to_string(const AnyQuantity& quantity);
 
 // Reflected-light meter (K = 12.5 cd s/m2): luminance of an EV at ISO 100, L = 2^EV K / 100.
+// Never infinite: EV beyond +-1000 count as that, and a luminance at or below 0 as the smallest normal double (EV -1019).
 double luminance_of_ev100(double ev100);
 double ev100_of_luminance(double luminance_cd_m2);
 // Saturation-based exposure (ISO 12232): what a picture in cd/m2 is multiplied by so that 1 is the sensor's saturation, 1 / (1.2 2^EV).

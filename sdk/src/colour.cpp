@@ -1,0 +1,96 @@
+#include "etendue/colour.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace etendue {
+namespace {
+
+constexpr Vec3d colour_matching[] = {
+#include "cie1931.inc"
+};
+constexpr int first_nm = 360;
+constexpr double c2_m_K = 1.438776877e-2;  // second radiation constant h c / k, SI 2019
+
+// A 3x3 matrix by its columns.
+struct Matrix {
+  Vec3d a, b, c;
+  constexpr Vec3d operator*(const Vec3d& v) const { return a * v.x + b * v.y + c * v.z; }
+};
+constexpr Matrix inverse(const Matrix& m) {
+  const Vec3d bc = cross(m.b, m.c), ca = cross(m.c, m.a), ab = cross(m.a, m.b);
+  const double determinant = dot(m.a, bc);
+  return {Vec3d{bc.x, ca.x, ab.x} / determinant, Vec3d{bc.y, ca.y, ab.y} / determinant, Vec3d{bc.z, ca.z, ab.z} / determinant};
+}
+
+constexpr Vec3d xyz_of(double x, double y) { return {x / y, 1, (1 - x - y) / y}; }
+// Columns are the primaries, each scaled so that R = G = B = 1 is the white with Y = 1.
+constexpr Matrix rgb_to_xyz_of(const Vec3d& r, const Vec3d& g, const Vec3d& b, const Vec3d& white) {
+  const Vec3d scale = inverse({r, g, b}) * white;
+  return {r * scale.x, g * scale.y, b * scale.z};
+}
+// ITU-R BT.709: primaries, and D65 as it rounds it.
+constexpr Matrix rgb_to_xyz = rgb_to_xyz_of(xyz_of(0.64, 0.33), xyz_of(0.30, 0.60), xyz_of(0.15, 0.06), xyz_of(0.3127, 0.3290));
+constexpr Matrix xyz_to_rgb = inverse(rgb_to_xyz);
+
+Error out_of_range(const char* what, double temperature_K, double low, double high) {
+  return {"TEMPERATURE_OUT_OF_RANGE",
+          fmt::format("expected a temperature of {} between {} K and {} K, found {} K", what, low, high, temperature_K),
+          {},
+          {},
+          {}};
+}
+
+}  // namespace
+
+Result<Chromaticity> planckian(double temperature_K) {
+  constexpr double low = 100, high = 100000;
+  if (!(temperature_K >= low && temperature_K <= high)) return out_of_range("a Planckian radiator", temperature_K, low, high);
+  // Planck's law without its constant factor, which chromaticity does not see: 1 / (lambda^5 (exp(c2 / (lambda T)) - 1)). Wavelengths are
+  // in micrometres, and exp stays below e^400 at 100 K.
+  Vec3d xyz;
+  int nm = first_nm;
+  for (const Vec3d& bar : colour_matching) {
+    const double micrometres = nm++ * 1e-3;
+    const double fifth_power = micrometres * micrometres * micrometres * micrometres * micrometres;
+    xyz += bar / (fifth_power * std::expm1(c2_m_K * 1e6 / (micrometres * temperature_K)));
+  }
+  const double sum = xyz.x + xyz.y + xyz.z;
+  return Chromaticity{xyz.x / sum, xyz.y / sum};
+}
+
+// CIE 015:2018, eq 4.3 to 4.5.
+Result<Chromaticity> daylight(double temperature_K) {
+  constexpr double low = 4000, high = 25000;
+  if (!(temperature_K >= low && temperature_K <= high)) return out_of_range("CIE daylight", temperature_K, low, high);
+  const double m = 1e3 / temperature_K;
+  const double x =
+      temperature_K <= 7000 ? ((-4.6070 * m + 2.9678) * m + 0.09911) * m + 0.244063 : ((-2.0064 * m + 1.9018) * m + 0.24748) * m + 0.237040;
+  return Chromaticity{x, (-3.000 * x + 2.870) * x - 0.275};
+}
+
+Rgb to_rgb(const Chromaticity& xy) {
+  // Any multiple of XYZ will do: it is scaled to luminance_of = 1 afterwards. The scale differs from the matrix' own middle row
+  // (.212639, .715169, .072192) by less than 1e-4 for lights near white.
+  const Rgb rgb = xyz_to_rgb * Vec3d{xy.x, xy.y, 1 - xy.x - xy.y};
+  const double luminance = luminance_of(rgb);
+  return luminance > 0 ? rgb / luminance : Rgb{0, 0, 0};
+}
+
+Chromaticity to_chromaticity(const Rgb& rgb) {
+  const Vec3d xyz = rgb_to_xyz * rgb;
+  const double sum = xyz.x + xyz.y + xyz.z;
+  return sum != 0 ? Chromaticity{xyz.x / sum, xyz.y / sum} : Chromaticity{0, 0};
+}
+
+Rgb clipped_keeping_luminance(const Rgb& rgb) {
+  const double luminance = luminance_of(rgb);
+  if (!(luminance > 0)) return {0, 0, 0};
+  const Rgb clipped{std::max(rgb.x, 0.0), std::max(rgb.y, 0.0), std::max(rgb.z, 0.0)};
+  return clipped * (luminance / luminance_of(clipped));
+}
+
+}  // namespace etendue

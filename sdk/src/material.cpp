@@ -1,0 +1,59 @@
+#include "etendue/material.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etendue {
+namespace {
+
+double index_of(double f0) {
+  // eta is infinite at f0 = 1; this bound is an index of 4e6.
+  const double root = std::sqrt(std::clamp(f0, 0.0, 0.999999));
+  return (1 + root) / (1 - root);
+}
+
+// KHR_materials_ior: f0 = ((n - 1) / (n + 1))^2, and n = 0 stands for f0 = 1.
+double f0_of_ior(double ior) {
+  if (ior == 0) return 1;
+  const double root = (ior - 1) / (ior + 1);
+  return root * root;
+}
+
+// `specular` of Mitsuba's principled for a dielectric f0. It computes eta = 2 / (1 - sqrt(f0)) - 1, so f0 stays below 1; and it renders
+// metals black if specular is 0 (Mitsuba issue 443), so they get f0 = 8e-6, which no picture shows.
+double specular_of_f0(double f0, double metallic) {
+  constexpr double f0_of_full_specular = 0.08;
+  const double specular = std::min(f0, 0.999) / f0_of_full_specular;
+  return metallic > 0 ? std::max(specular, 1e-4) : specular;
+}
+
+struct ToMitsuba {
+  SurfaceModel operator()(const Lambert& m) const { return m; }
+  SurfaceModel operator()(const Principled& m) const { return m; }
+  SurfaceModel operator()(const Conductor& m) const { return m; }
+  SurfaceModel operator()(const MetalRough& m) const {
+    return Principled{m.base_colour, m.metallic, m.roughness, specular_of_f0(f0_of_ior(m.ior), m.metallic)};
+  }
+  SurfaceModel operator()(const Standard& m) const {
+    const double f0 = 0.16 * m.reflectance * m.reflectance;
+    return Principled{m.base_colour, m.metal, m.roughness, specular_of_f0(f0, m.metal)};
+  }
+};
+
+}  // namespace
+
+Conductor conductor_from_f0(const Rgb& f0, double alpha) {
+  Conductor conductor;
+  conductor.eta = {index_of(f0.x), index_of(f0.y), index_of(f0.z)};
+  conductor.k = {0, 0, 0};
+  conductor.alpha = alpha;
+  return conductor;
+}
+
+Material mitsuba_twin(const Material& material) {
+  Material twin = material;
+  twin.model = std::visit(ToMitsuba{}, material.model);
+  return twin;
+}
+
+}  // namespace etendue
