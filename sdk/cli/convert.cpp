@@ -1,0 +1,181 @@
+// etendue convert: any format in, any format out, with a report of what is lost.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+#include "verbs.h"
+
+namespace etendue::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string in, out, to, loss, size = "512x512", camera, lights, mute;
+  int depth = 2;
+  unsigned samples = 1024, jobs = 1;
+  bool force = false;
+};
+
+struct Converted {
+  fs::path in, out;
+  std::optional<Error> error;
+  std::vector<fs::path> files;
+  LossReport losses;
+  Diagnostics diagnostics;
+};
+
+Json to_json(const LossReport& report) {
+  Json json = Json::array();
+  for (const Loss& loss : report.losses) json.push_back({{"what", loss.what}, {"effect", loss.effect}});
+  return json;
+}
+
+Result<ExportOptions> export_options(Scene& scene, const Options& options, Size size) {
+  ExportOptions result;
+  result.max_depth = options.depth;
+  result.width = size.width;
+  result.height = size.height;
+  result.samples = options.samples;
+  const auto camera = choose_camera(scene, options.camera, static_cast<double>(size.width) / size.height);
+  if (!camera && !(options.camera.empty() && camera.error().code == "CAMERA_MISSING")) return camera.error();
+  result.camera = camera ? *camera : 0;
+  if (!options.lights.empty() || !options.mute.empty()) {
+    auto lit = lit_lights(scene, options.lights, options.mute);
+    if (!lit) return lit.error();
+    result.lit = *lit;
+  }
+  return result;
+}
+
+void convert_one(Converted& job, const Options& options, Size size) {
+  if (fs::exists(job.out) && !options.force) {
+    job.error = Error{"USAGE", fmt::format("{} is there already", job.out.string()), {}, "--force replaces it", {}};
+    return;
+  }
+  const auto exporter = registry().exporter_for(job.out);
+  if (!exporter) return void(job.error = exporter.error());
+  const auto importer = registry().importer_for(job.in);
+  if (!importer) return void(job.error = importer.error());
+  Result<Imported> imported = (*importer)->read(job.in, {});
+  if (!imported) return void(job.error = imported.error());
+  job.diagnostics.append(imported->diagnostics);
+  if (imported->diagnostics.has_errors()) {
+    job.error = Error{"INPUT_INVALID", fmt::format("{} has errors and is not converted", job.in.string()), {}, "", {}};
+    return;
+  }
+  const auto chosen = export_options(imported->scene, options, size);
+  if (!chosen) return void(job.error = chosen.error());
+  Result<Exported> exported = (*exporter)->write(imported->scene, job.out, *chosen);
+  if (!exported) return void(job.error = exported.error());
+  job.files = std::move(exported->files);
+  job.losses = std::move(exported->losses);
+  job.diagnostics.append(exported->diagnostics);
+}
+
+// A folder's assets, each with the same name in the output folder and the new extension.
+Result<std::vector<Converted>> jobs_of(const Options& options) {
+  if (!fs::is_directory(options.in)) return std::vector<Converted>{{options.in, options.out, {}, {}, {}, {}}};
+  if (options.to.empty()) return Error{"USAGE", "a folder needs --to, as in --to .xml", {}, "", {}};
+  std::vector<Converted> jobs;
+  for (const auto& entry : fs::recursive_directory_iterator(options.in)) {
+    if (!entry.is_regular_file()) continue;
+    const std::string name = entry.path().filename().string();
+    for (const auto& importer : registry().importers()) {
+      for (const std::string& extension : importer->describe().extensions) {
+        if (!name.ends_with(extension) || name.size() == extension.size()) continue;
+        const fs::path folder = fs::path(options.out) / fs::relative(entry.path().parent_path(), options.in);
+        jobs.push_back({entry.path(), folder / (name.substr(0, name.size() - extension.size()) + options.to), {}, {}, {}, {}});
+      }
+    }
+  }
+  std::sort(jobs.begin(), jobs.end(), [](const Converted& a, const Converted& b) { return a.in < b.in; });
+  for (const Converted& job : jobs) fs::create_directories(job.out.parent_path());
+  return jobs;
+}
+
+void run_jobs(std::vector<Converted>& jobs, const Options& options, Size size, Bar& bar) {
+  std::atomic<std::size_t> next = 0, done = 0;
+  std::mutex reporting;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < jobs.size() && !interrupted(); i = next++) {
+      convert_one(jobs[i], options, size);
+      const std::scoped_lock lock(reporting);
+      bar.report("convert", static_cast<double>(++done) / static_cast<double>(jobs.size()));
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned i = 1; i < std::min<std::size_t>(options.jobs, jobs.size()); ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+}
+
+int run_convert(const Common& common, const Options& options) {
+  Session session("convert", common);
+  const Result<Size> size = parse_size(options.size);
+  if (!size) return session.fail(size.error());
+  Result<std::vector<Converted>> jobs = jobs_of(options);
+  if (!jobs) return session.fail(jobs.error());
+  {
+    Bar bar(session);
+    run_jobs(*jobs, options, *size, bar);
+  }
+  if (interrupted()) return session.fail({"CANCELLED", "cancelled", {}, "", {}});
+
+  Json losses = Json::object();
+  session.result = Json::array();
+  int status = exit_done;
+  for (const Converted& job : *jobs) {
+    session.diagnostics.append(job.diagnostics);
+    Json item = {{"in", job.in.string()}};
+    if (job.error) {
+      session.diagnostics.add(to_diagnostic(*job.error));
+      item["error"] = job.error->text;
+      status = std::max(status, exit_status_of(*job.error));
+    } else {
+      item["out"] = job.out.string();
+      item["files"] = Json::array();
+      for (const fs::path& file : job.files) item["files"].push_back(file.string());
+      item["losses"] = to_json(job.losses);
+      losses[job.out.string()] = to_json(job.losses);
+      session.print(fmt::format("{}: {} file{}, {} loss{}", job.out.string(), job.files.size(), job.files.size() == 1 ? "" : "s",
+                                job.losses.losses.size(), job.losses.losses.size() == 1 ? "" : "es"));
+      for (const Loss& loss : job.losses.losses) session.print(fmt::format("  lost: {}: {}", loss.what, loss.effect));
+    }
+    session.result.push_back(std::move(item));
+  }
+  if (!options.loss.empty()) {
+    const std::string text = losses.dump(2) + "\n";
+    const Status written = write_file(options.loss, std::as_bytes(std::span(text)));
+    if (!written) return session.fail(written.error());
+  }
+  return session.finish(status);
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, const Common& common, Run& run) {
+  CLI::App* const verb = app.add_subcommand("convert", "Any format in, any format out, with a report of what is lost");
+  auto options = std::make_shared<Options>();
+  verb->add_option("IN", options->in, "A light rig or glTF file, or a folder of them")->required();
+  verb->add_option("OUT", options->out, "A file (.xml, .rig.json), or a folder")->required();
+  verb->add_option("--to", options->to, "For a folder: the extension of what is written, as .xml");
+  verb->add_option("--loss", options->loss, "Write the losses to this JSON file as well");
+  verb->add_option("--depth", options->depth, "Mitsuba's max_depth: 2 is direct light, -1 has no end")->capture_default_str();
+  verb->add_option("--size", options->size, "WIDTHxHEIGHT of the picture")->capture_default_str();
+  verb->add_option("--spp", options->samples, "Samples per pixel that Mitsuba takes unless told otherwise")->capture_default_str();
+  verb->add_option("--camera", options->camera, "A camera of the file, or auto");
+  verb->add_option("--lights", options->lights, "Only these lights emit, by name: a,b");
+  verb->add_option("--mute", options->mute, "All lights but these emit");
+  verb->add_option("--jobs", options->jobs, "Files of a folder at a time")->capture_default_str()->check(CLI::Range(1, 256));
+  verb->add_flag("--force", options->force, "Replace what is there");
+  verb->footer(
+      "\nExamples:\n  etendue convert kitchen.rig.json kitchen.xml\n  etendue convert assets/ scenes/ --to .xml --jobs 4 --loss "
+      "losses.json");
+  verb->callback([&common, &run, options] { run = [&common, options] { return run_convert(common, *options); }; });
+}
+
+}  // namespace etendue::cli

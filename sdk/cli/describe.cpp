@@ -1,0 +1,151 @@
+#include "describe.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace etendue::cli {
+namespace {
+
+double in_degrees(double radians_) { return degrees.of({radians_}); }
+
+// Shortest text of at most six significant digits.
+std::string number(double x) { return fmt::format("{:.6g}", x); }
+
+std::string describe_shape(const Shape& shape) {
+  struct {
+    std::string operator()(const PointShape&) { return ""; }
+    std::string operator()(const SpotShape& s) {
+      return fmt::format(" {}/{} deg", number(in_degrees(s.inner_rad)), number(in_degrees(s.outer_rad)));
+    }
+    std::string operator()(const FrustumShape& s) {
+      return fmt::format(" {} x {} deg", number(in_degrees(s.width_rad)), number(in_degrees(s.height_rad)));
+    }
+    std::string operator()(const DistantShape& s) {
+      return s.diameter_rad > 0 ? fmt::format(" {} deg", number(in_degrees(s.diameter_rad))) : "";
+    }
+    std::string operator()(const SphereShape& s) { return fmt::format(" radius {} m", number(s.radius)); }
+    std::string operator()(const DiskShape& s) { return fmt::format(" radius {} m", number(s.radius)); }
+    std::string operator()(const RectShape& s) { return fmt::format(" {} m x {} m", number(s.width), number(s.height)); }
+    std::string operator()(const PolygonShape& s) { return fmt::format(" of {} points", s.points.size()); }
+    std::string operator()(const TubeShape& s) { return fmt::format(" {} m, radius {} m", number(s.length), number(s.radius)); }
+    std::string operator()(const LineShape& s) { return fmt::format(" {} m", number(s.length)); }
+    std::string operator()(const MeshShape&) { return ""; }
+    std::string operator()(const PhotometricShape& s) { return " " + s.file; }
+    std::string operator()(const EnvironmentShape& s) { return s.image ? " map" : " constant"; }
+  } text;
+  return name_of(shape) + std::visit(text, shape);
+}
+
+// The authored unit of an emission, for texts and for JSON keys.
+struct GivenUnit {
+  const char* text;
+  const char* key;
+};
+GivenUnit unit_of(const Emission& emission) {
+  using Given = Emission::Given;
+  switch (emission.given) {
+    case Given::flux:
+      return emission.radiant ? GivenUnit{"W", "radiant_flux_W"} : GivenUnit{"lm", "flux_lm"};
+    case Given::intensity:
+      return emission.radiant ? GivenUnit{"W/sr", "radiant_intensity_W_sr"} : GivenUnit{"cd", "intensity_cd"};
+    case Given::luminance:
+      return emission.radiant ? GivenUnit{"W/m2/sr", "radiance_W_m2_sr"} : GivenUnit{"cd/m2", "luminance_cd_m2"};
+    case Given::illuminance:
+      return emission.radiant ? GivenUnit{"W/m2", "irradiance_W_m2"} : GivenUnit{"lx", "illuminance_lx"};
+    case Given::ev:
+      return {"EV", "ev100"};
+    case Given::as_file:
+      break;
+  }
+  return {"", ""};
+}
+
+std::string describe_colour(const LightColour& colour) {
+  if (const auto* const rgb = std::get_if<RgbColour>(&colour)) {
+    return rgb->rgb == Rgb{1, 1, 1} ? "" : fmt::format(", rgb {} {} {}", number(rgb->rgb.x), number(rgb->rgb.y), number(rgb->rgb.z));
+  }
+  if (const auto* const planck = std::get_if<TemperatureColour>(&colour)) return fmt::format(", {} K", number(planck->kelvin));
+  return fmt::format(", daylight {} K", number(std::get<DaylightColour>(colour).kelvin));
+}
+
+const char* model_name(const SurfaceModel& model) {
+  static constexpr const char* names[] = {"lambert", "principled", "standard", "conductor", "metal-rough"};
+  return names[model.index()];
+}
+
+std::string image_name(const Scene& scene, const Texture& texture) {
+  if (texture.image >= scene.images.size()) return "?";
+  const ImageRef& image = scene.images[texture.image];
+  return image.name.empty() ? image.file : image.name;
+}
+
+template <class Visit>
+void for_each_texture(const Material& material, Visit visit) {
+  if (material.base_colour_texture) visit("base_colour", *material.base_colour_texture);
+  if (material.metal_rough_texture) visit("metal_rough", *material.metal_rough_texture);
+  if (material.normal_map) visit("normal", material.normal_map->texture);
+  if (material.emissive_texture) visit("emissive", *material.emissive_texture);
+}
+
+}  // namespace
+
+Json to_json(const Vec3d& v) { return Json::array({v.x, v.y, v.z}); }
+
+std::string describe(const Light& light) {
+  std::string text = describe_shape(light.shape);
+  if (light.emission.given != Emission::Given::as_file)
+    text += fmt::format(", {} {}", number(light.emission.value), unit_of(light.emission).text);
+  text += describe_colour(light.colour);
+  if (light.two_sided) text += ", two-sided";
+  if (light.range_m) text += fmt::format(", range {} m", number(*light.range_m));
+  return text;
+}
+
+Json to_json(const Scene& scene, const Light& light) {
+  Json json = {{"name", light.name}, {"shape", name_of(light.shape)}, {"description", describe(light)}};
+  if (light.emission.given != Emission::Given::as_file) json["authored"] = {{unit_of(light.emission).key, light.emission.value}};
+  const Result<Resolved> resolved = resolve(light, mesh_area_of(scene, light));
+  if (resolved) {
+    static constexpr const char* keys[] = {"intensity_cd", "luminance_cd_m2", "illuminance_lx", "perpendicular_intensity_cd"};
+    const double y = luminance_of(resolved->rgb);
+    json[keys[static_cast<int>(resolved->kind)]] = y;
+    json["rgb"] = to_json(resolved->rgb);
+    if (resolved->flux_lm > 0) json["flux_lm"] = resolved->flux_lm;
+    if (resolved->area_m2 > 0) json["area_m2"] = resolved->area_m2;
+    if (resolved->kind == Resolved::Kind::luminance && y > 0) json["ev100"] = ev100_of_luminance(y);
+  }
+  if (light.range_m) json["range_m"] = *light.range_m;
+  json["position"] = to_json(light.transform.translation);
+  json["direction"] = to_json(-light.transform.columns[2]);
+  if (!light.source.empty()) json["pointer"] = light.source;
+  return json;
+}
+
+std::string describe(const Scene& scene, const Material& material) {
+  std::string text = model_name(material.model);
+  for_each_texture(material,
+                   [&](const char* role, const Texture& texture) { text += fmt::format(", {} {}", role, image_name(scene, texture)); });
+  if (material.double_sided) text += ", double-sided";
+  return text;
+}
+
+Json to_json(const Scene& scene, const Material& material) {
+  Json json = {{"name", material.name}, {"model", model_name(material.model)}, {"double_sided", material.double_sided}};
+  for_each_texture(material, [&](const char* role, const Texture& texture) {
+    json["textures"][role] = {{"image", image_name(scene, texture)}, {"encoding", texture.encoding == Encoding::srgb ? "srgb" : "linear"}};
+  });
+  if (!material.source.empty()) json["pointer"] = material.source;
+  return json;
+}
+
+Json to_json(const Camera& camera) {
+  Json json = {{"name", camera.name},
+               {"position", to_json(camera.transform.translation)},
+               {"direction", to_json(-camera.transform.columns[2])},
+               {"vfov_deg", in_degrees(camera.vfov_rad)}};
+  if (camera.ev100) json["ev100"] = *camera.ev100;
+  return json;
+}
+
+}  // namespace etendue::cli
