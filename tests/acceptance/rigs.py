@@ -1,0 +1,121 @@
+"""Rig files for the acceptance scripts: every kind of light at near, medium and grazing positions over a floor."""
+import json
+import math
+import pathlib
+import struct
+
+FLOOR = {"lambert": {"name": "floor", "model": "lambert", "base_colour": [0.6, 0.5, 0.4]}}
+
+
+def conductor(alpha):
+    return {"name": "floor", "model": "conductor", "f0": [0.9, 0.7, 0.4], "alpha": alpha}
+
+
+def towards(direction):
+    """Quaternion (x, y, z, w) that turns -Z into `direction`: the half-way construction from two unit vectors."""
+    length = math.sqrt(sum(c * c for c in direction))
+    x, y, z = (c / length for c in direction)
+    # cross((0, 0, -1), d) = (y, -x, 0); w = 1 + dot = 1 - z
+    if z > 1 - 1e-12:
+        return [0.0, 1.0, 0.0, 0.0]
+    q = [y, -x, 0.0, 1.0 - z]
+    norm = math.sqrt(sum(c * c for c in q))
+    return [c / norm for c in q]
+
+
+def blob_environment(path, direction, width=64, height=32):
+    """A sky with one soft bright spot, as a PFM file; centre column +Z, +X at a quarter of the width, +Y at the top."""
+    length = math.sqrt(sum(c * c for c in direction))
+    towards_blob = [c / length for c in direction]
+    rows = []
+    for row in range(height):
+        theta = math.pi * (row + 0.5) / height
+        line = []
+        for column in range(width):
+            longitude = math.pi - 2 * math.pi * (column + 0.5) / width
+            d = (math.sin(theta) * math.sin(longitude), math.cos(theta), math.sin(theta) * math.cos(longitude))
+            blob = 40 * math.exp(30 * (sum(a * b for a, b in zip(d, towards_blob)) - 1))
+            line += [0.5 + blob, 0.7 + 0.8 * blob, 1.0 + 0.6 * blob]
+        rows.append(line)
+    with open(path, "wb") as out:
+        out.write(b"PF\n%d %d\n-1.0\n" % (width, height))
+        for line in reversed(rows):  # PFM starts with the bottom row
+            out.write(struct.pack("<%df" % len(line), *line))
+
+
+CUBE = {
+    "positions": [[x, y, z] for x in (-0.15, 0.15) for y in (-0.15, 0.15) for z in (-0.15, 0.15)],
+    "indices": [0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3],
+}
+STAR = [[0.4 * (1 if i % 2 == 0 else 0.45) * math.cos(math.pi * i / 5), 0.4 * (1 if i % 2 == 0 else 0.45) * math.sin(math.pi * i / 5)]
+        for i in range(10)]
+
+SHAPES = {
+    "point": {"type": "point"},
+    "spot": {"type": "spot", "inner": "20 deg", "outer": "45 deg"},
+    "frustum": {"type": "frustum", "width_angle": "60 deg", "height_angle": "40 deg"},
+    "rect": {"type": "rect", "width": "0.8 m", "height": "0.5 m"},
+    "rect-two-sided": {"type": "rect", "width": "0.8 m", "height": "0.5 m"},
+    "disk": {"type": "disk", "radius": "0.35 m"},
+    "sphere": {"type": "sphere", "radius": "0.2 m"},
+    "capsule": {"type": "tube", "length": "0.8 m", "radius": "0.06 m"},
+    "polygon": {"type": "polygon", "points": STAR},
+    "mesh": dict({"type": "mesh"}, **CUBE),
+}
+PLACES = {
+    # name: position, direction it emits in; "grazing" is turned and low enough to cross the floor's plane
+    "near": ((0.2, 0.5, -0.1), (0.1, -1.0, 0.15)),
+    "medium": ((0.8, 1.7, -0.9), (-0.4, -1.0, 0.45)),
+    "grazing": ((-1.7, 0.18, -0.3), (1.0, -0.06, 0.1)),
+}
+SUN_DIRECTIONS = {"near": (0.1, -1.0, 0.1), "medium": (-0.7, -1.0, -0.3), "grazing": (1.0, -0.12, 0.2)}
+KINDS = [*SHAPES, "directional", "sun", "environment"]
+
+
+def light(kind, place, folder):
+    if kind in ("directional", "sun"):
+        diameter = {"directional": "0 deg", "sun": "0.53 deg"}[kind]
+        return {"name": kind, "shape": {"type": "distant", "angular_diameter": diameter}, "emission": {"illuminance": "50 klx"},
+                "colour": {"temperature": "5600 K"}, "rotation": towards(SUN_DIRECTIONS[place])}
+    if kind == "environment":
+        name = "environment-%s.pfm" % place
+        blob_environment(pathlib.Path(folder) / name, [-c for c in SUN_DIRECTIONS[place]])
+        return {"name": kind, "shape": {"type": "environment", "file": name}}
+    position, direction = PLACES[place]
+    entry = {"name": kind, "shape": SHAPES[kind], "emission": {"flux": "1500 lm"}, "colour": {"temperature": "3000 K"},
+             "translation": list(position), "rotation": towards(direction)}
+    if kind == "rect-two-sided":
+        entry["two_sided"] = True
+    return entry
+
+
+def camera_for(place, material):
+    """Matte floors from above; metal from opposite the light, so that its reflection is in the picture."""
+    if material["model"] == "conductor" and place == "grazing":
+        return {"position": [2.6, 0.9, 0.4], "target": [0, 0, 0], "vfov": "42 deg"}
+    return {"position": [0, 2.2, 3.2], "target": [0, 0.0, 0.1], "vfov": "42 deg"}
+
+
+def single_light_rig(kind, place, material, folder):
+    rig = {"etendue": 1, "lights": [light(kind, place, folder)], "camera": camera_for(place, material), "materials": [material],
+           "objects": [{"name": "floor", "shape": {"type": "plane", "size": 8}, "material": "floor"}]}
+    path = pathlib.Path(folder) / ("%s-%s.rig.json" % (kind, place))
+    path.write_text(json.dumps(rig, indent=1))
+    return path
+
+
+def occluder_rig(material, folder):
+    """Several lights of different kinds, with boxes and a ball that throw shadows, and lights that occlude one another."""
+    lights = [dict(light(kind, "medium", folder), name=kind) for kind in ("rect", "sphere", "capsule", "point")]
+    for entry, position in zip(lights, ((0.8, 1.7, -0.9), (-0.9, 1.2, -0.4), (0.0, 0.9, 1.2), (-0.4, 1.9, 0.9))):
+        entry["translation"] = list(position)
+        entry["rotation"] = towards([-position[0], -position[1], -position[2]])
+    grey = {"name": "grey", "model": "lambert", "base_colour": [0.4, 0.45, 0.5]}
+    rig = {"etendue": 1, "lights": lights, "camera": camera_for("medium", material), "materials": [material, grey],
+           "objects": [{"name": "floor", "shape": {"type": "plane", "size": 8}, "material": "floor"},
+                       {"name": "box", "shape": {"type": "box", "size": [0.4, 0.5, 0.3]}, "material": "grey", "translation": [0.4, 0.25, 0.1],
+                        "rotation": [0, 0.2588190451, 0, 0.9659258263]},
+                       {"name": "ball", "shape": {"type": "sphere", "radius": 0.25}, "material": "grey", "translation": [-0.6, 0.25, 0.3]}]}
+    path = pathlib.Path(folder) / "occluders.rig.json"
+    path.write_text(json.dumps(rig, indent=1))
+    return path
