@@ -25,12 +25,14 @@ const char* name_of(Verdict verdict);
 
 // Channel c of region r: d = (mean ours - mean reference) / mean reference, and its standard error.
 struct RegionDifference {
-  std::string region;  // "all", "tile 2,3", "object floor", "visible emitters"
-  char channel = 'Y';  // R G B, or Y
+  std::string region;  // "all", "tile 2,3" (column, row, from 1 at the top left), "object floor", "visible emitters"
+  char channel = 'R';  // R G B
   double mean_ours = 0, mean_reference = 0;
   double difference = 0, standard_error = 0;
   std::uint64_t pixels = 0;
+  double z = 0;           // significance of the difference from zero, as a standard normal deviate
   bool left_out = false;  // too dark to be judged
+  bool merged = false;    // too noisy for `same` on its own: judged as part of a larger region
 };
 
 // What the difference looks like, where there is one: a hypothesis with the evidence for it.
@@ -46,11 +48,14 @@ struct Comparison {
   std::vector<RegionDifference> regions;
   std::vector<Finding> findings;
   std::optional<std::uint64_t> samples_needed;  // when undecided: about how many would tell
+  double pixel_excess_rel = 0;                  // rms of what the pixels differ by beyond the noise, relative; 0 where there is none
+  double pixel_excess_z = 0;                    // its significance
+  double threshold_z = 0;                       // what a z must exceed for the family-wise false-alarm rate
   int seeds = 0;
 };
 
 // The reference as K independent runs of equal samples, K >= 5 (REFERENCE_TOO_FEW_SEEDS). All linear, same size (PICTURE_SIZE_MISMATCH).
-// Result: layers "", "variance" (of the mean) and "etendue:seeds" among the numbers.
+// Result: layers "", "variance" (of the mean), likewise every "light.NAME" that all runs have, and "etendue:seeds" among the numbers.
 Result<Picture> pool(const std::vector<Picture>& runs);
 
 // `reference` as pool() makes it; `ours` with its "variance", "object" and "emitter" layers where it has them.

@@ -1,0 +1,200 @@
+#include "findings.h"
+
+#include "models.h"
+#include "pixels.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace etendue::compare_detail {
+namespace {
+
+using Values = std::vector<double>;
+constexpr std::size_t most_findings = 4;
+// A hypothesis is named when it explains this part of what exceeds the noise, and a simpler one is preferred where it explains nearly as
+// much.
+constexpr double least_explained = .3, as_good_as = .95;
+// Alone in its layer, a light has only its brightness or the camera to blame when those explain this part; else its own shape or direction.
+constexpr double mostly = .8;
+// Three channels of a pixel share most of their noise: chi-squared over them counts for one.
+constexpr double shared_noise = 3;
+
+struct Candidate {
+  Model model;
+  Fit fit;
+  double explained = 0;  // part of the excess over the noise
+  double score = 0;      // Bayesian information criterion (Schwarz 1978) over -2: lower is better
+};
+
+double relative_change(const Values& before, const Values& after, const Evidence& e) {
+  double change = 0, scale = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (e.emitter[i / 3]) continue;
+    change += (after[i] - before[i]) * (after[i] - before[i]);
+    scale += before[i] * before[i];
+  }
+  return scale > 0 ? std::sqrt(change / scale) : 0;
+}
+
+std::optional<Candidate> best_candidate(const Values& base, const Evidence& e, std::vector<Model> models, const Values& weights,
+                                        double threshold_z, double max_difference) {
+  double noise = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) noise += weights[i] * e.variance[i];
+  const double log_pixels = std::log(static_cast<double>(e.pixels()));
+  const double least_change = std::max(max_difference / 10, 3e-5);
+  std::optional<Candidate> best;
+  for (Model& model : models) {
+    Candidate candidate{std::move(model), {}, 0, 0};
+    candidate.fit = fit(candidate.model, e, weights);
+    const double gain = candidate.fit.chi2_before - candidate.fit.chi2;
+    const double excess = candidate.fit.chi2_before - noise;
+    candidate.explained = excess > 0 ? std::min(1.0, gain / excess) : 1;
+    candidate.score = candidate.fit.chi2 / shared_noise + candidate.model.parameters * log_pixels;
+    if (gain / shared_noise < threshold_z * threshold_z + 2 * candidate.model.parameters) continue;
+    if (candidate.explained < least_explained || relative_change(base, candidate.fit.predicted, e) < least_change) continue;
+    const bool simpler = best && candidate.model.parameters < best->model.parameters && candidate.explained >= as_good_as * best->explained;
+    const bool needless = best && candidate.model.parameters >= best->model.parameters &&
+                          best->explained >= as_good_as * candidate.explained && candidate.model.parameters > best->model.parameters;
+    if (!best || simpler || (!needless && candidate.score < best->score)) best = std::move(candidate);
+  }
+  return best;
+}
+
+Finding light_finding(const std::string& light, double factor, double error, bool absent) {
+  if (absent || std::abs(factor) < std::max(.05, 3 * error)) {
+    return {"LIGHT_MISSING", fmt::format("Light '{}' is missing from our picture.", light), 0};
+  }
+  return {"LIGHT_DIFFERS", fmt::format("Light '{}' gives {:.4g} times the reference's light.", light, factor), factor};
+}
+
+// `change`: rms of the difference over the rms of the picture.
+Finding shape_finding(const std::string& light, double change) {
+  return {"LIGHT_TURNED",
+          fmt::format("Light '{}' throws its light elsewhere than in the reference: turned, moved or of another shape.", light), change};
+}
+
+Finding describe(const Candidate& c, const Values& base, const Evidence& e) {
+  const Values& t = c.fit.theta;
+  switch (c.model.kind) {
+    case Model::Kind::scale: {
+      const double factor = 1 / (1 + t[0]);
+      return {"GLOBAL_SCALE", fmt::format("Our picture is {:.5g} times the reference, everywhere alike.", factor), factor};
+    }
+    case Model::Kind::gamma: {
+      const double exponent = 1 / (1 + t[1]);
+      return {"GAMMA", fmt::format("Our picture is the reference raised to the power {:.4g}.", exponent), exponent};
+    }
+    case Model::Kind::shift:
+      return {"SHIFT", fmt::format("Our picture is shifted by {:.3f} pixels to the right and {:.3f} down.", -t[0], -t[1]),
+              std::hypot(t[0], t[1])};
+    case Model::Kind::filter: {
+      // A filter of variance s^2 adds s^2/2 times the Laplacian: s^2 = 2 theta.
+      const double width = std::sqrt(2 * std::abs(t[0]));
+      return {"PIXEL_FILTER",
+              fmt::format("{} is smoother, as if filtered once more with a standard deviation of {:.3f} pixels.",
+                          t[0] > 0 ? "The reference" : "Our picture", width),
+              std::copysign(width, t[0])};
+    }
+    case Model::Kind::light_scale:
+      return light_finding(c.model.light, 1 - t[0], c.fit.errors[0], c.model.light_absent);
+    case Model::Kind::light_shape:
+      return shape_finding(c.model.light, relative_change(base, c.fit.predicted, e));
+  }
+  return {};
+}
+
+bool is_global(const Model& model) { return model.kind != Model::Kind::light_scale && model.kind != Model::Kind::light_shape; }
+
+bool is_of_optics(const Finding& finding) { return finding.code == "SHIFT" || finding.code == "PIXEL_FILTER" || finding.code == "GAMMA"; }
+
+// What a single light's layers show: a LIGHT_... finding, or what a camera or a film would do.
+std::optional<Finding> examine_light(const Evidence& e, const std::string& light, double threshold_z, double max_difference) {
+  const std::vector<Region> regions = divide(e, 4, {});
+  const std::array<TailRate, 3> tails = tail_rates(regions[0]);
+  bool differs = pixel_statistics(e).excess_z > threshold_z;
+  for (const Region& region : regions) {
+    for (std::size_t c = 0; c < 3; ++c) differs = differs || std::abs(estimate(region.sums[c], tails[c], 0).z) > threshold_z;
+  }
+  double ours = 0, reference = 0;
+  for (double value : e.ours) ours += std::abs(value);
+  for (double value : e.reference) reference += std::abs(value);
+  if (!differs) return std::nullopt;
+  if (ours < .05 * reference) return light_finding(light, 0, 0, true);
+
+  if (relative_change(e.ours, e.reference, e) < max_difference / 10) return std::nullopt;
+
+  const std::optional<Candidate> best =
+      best_candidate(e.ours, e, models_for(e.ours, e, {}, {}), weights_of(e), threshold_z, max_difference);
+  if (!best || best->explained < mostly) return shape_finding(light, pixel_statistics(e).excess_rel);
+  if (best->model.kind != Model::Kind::scale) return describe(*best, e.ours, e);
+  return light_finding(light, 1 / (1 + best->fit.theta[0]), best->fit.errors[0], false);
+}
+
+// Each light's own layers, where both pictures have them: less noise than the sum of all lights. A camera or a film errs for all lights
+// alike: what most of them show is said once, and what only few show is the light's own.
+std::vector<Finding> find_in_layers(const Picture& ours, const Picture& reference, double threshold_z, double max_difference) {
+  std::vector<Finding> of_lights, of_optics;
+  std::size_t lights = 0;
+  for (const std::string& light : lights_of(reference)) {
+    if (!ours.find("light." + light)) continue;
+    const Result<Evidence> evidence = gather(ours, reference, light);
+    if (!evidence) continue;
+    ++lights;
+    std::optional<Finding> finding = examine_light(*evidence, light, threshold_z, max_difference);
+    if (!finding) continue;
+    if (is_of_optics(*finding)) {
+      of_optics.push_back(std::move(*finding));
+      finding = shape_finding(light, pixel_statistics(*evidence).excess_rel);
+    }
+    of_lights.push_back(std::move(*finding));
+  }
+  if (2 * of_optics.size() > std::max<std::size_t>(lights, 2)) return {of_optics.front()};
+  return of_lights;
+}
+
+}  // namespace
+
+std::vector<Finding> find_causes(const Evidence& e, const Picture& ours, const Picture& reference, double threshold_z,
+                                 double max_difference) {
+  const Values weights = weights_of(e);
+  std::vector<Finding> findings;
+  Values base = e.ours;
+  bool global = false;
+  while (findings.size() < most_findings) {
+    std::optional<Candidate> best = best_candidate(base, e, models_for(base, e, ours, reference), weights, threshold_z, max_difference);
+    if (!best) break;
+    findings.push_back(describe(*best, base, e));
+    global = global || is_global(best->model);
+    base = std::move(best->fit.predicted);
+  }
+  if (global) return findings;
+  std::vector<Finding> in_layers = find_in_layers(ours, reference, threshold_z, max_difference);
+  return in_layers.empty() ? findings : in_layers;
+}
+
+std::vector<Finding> find_light_cause(const Evidence& e, const std::string& light, double threshold_z, double max_difference) {
+  const std::optional<Finding> finding = examine_light(e, light, threshold_z, max_difference);
+  if (!finding) return {};
+  return {is_of_optics(*finding) ? shape_finding(light, pixel_statistics(e).excess_rel) : *finding};
+}
+
+Finding worst_region(const std::vector<RegionDifference>& regions, double pixel_excess_rel) {
+  const RegionDifference* worst = nullptr;
+  for (const RegionDifference& region : regions) {
+    if (!region.left_out && (!worst || std::abs(region.z) > std::abs(worst->z))) worst = &region;
+  }
+  if (!worst) return {"REGION", "The pictures differ, and every region is too dark to say where.", 0};
+  return {"REGION",
+          fmt::format("The largest difference is in {}: {:+.3g} % in {}; single pixels differ by {:.2g} % (rms) beyond the noise.",
+                      worst->region, 100 * worst->difference,
+                      worst->channel == 'R'   ? "red"
+                      : worst->channel == 'G' ? "green"
+                                              : "blue",
+                      100 * pixel_excess_rel),
+          worst->difference};
+}
+
+}  // namespace etendue::compare_detail

@@ -1,0 +1,44 @@
+#include "pixels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etendue::compare_detail {
+
+PixelStatistics pixel_statistics(const Evidence& e) {
+  double chi2 = 0, squares = 0, noise = 0, total = 0, count = 0;
+  // Excess: sum w (D^2 - sigma^2) with weights w that are independent of the pixel's own noise. Both D^2 and sigma^2 are unbiased, so its
+  // mean is 0 for noise of any distribution, unlike that of a sum of D^2 / sigma^2. The channels of one pixel share their noise: they are
+  // summed first, and the spread of the pixels' sums is the standard error.
+  double excess = 0, excess_squares = 0, weighted_ours2 = 0;
+  for (std::size_t p = 0; p < e.pixels(); ++p) {
+    if (e.emitter[p]) continue;
+    double pixel_excess = 0;
+    for (std::size_t i = 3 * p; i < 3 * p + 3; ++i) {
+      const double d = e.difference(i), v = e.variance[i];
+      if (!(v > 0)) continue;
+      chi2 += d * d / v;
+      squares += d * d;
+      noise += v;
+      total += e.reference[i];
+      count += 1;
+      if (!(e.around[i] > 0)) continue;
+      const double w = 1 / e.around[i];
+      pixel_excess += w * (d * d - v);
+      weighted_ours2 += w * e.ours[i] * e.ours[i];
+    }
+    excess += pixel_excess;
+    excess_squares += pixel_excess * pixel_excess;
+  }
+  PixelStatistics result;
+  if (count == 0 || !(total > 0)) return result;
+  const double mean = total / count, seeds = e.seeds;
+  result.chi2_per_pixel = chi2 / count * (seeds - 3) / (seeds - 1);
+  result.rms_rel = std::sqrt(squares / count) / mean;
+  result.noise_rms_rel = std::sqrt(noise / count) / mean;
+  if (excess_squares > 0) result.excess_z = excess / std::sqrt(excess_squares);
+  if (excess > 0 && weighted_ours2 > 0) result.excess_rel = std::sqrt(excess / weighted_ours2);
+  return result;
+}
+
+}  // namespace etendue::compare_detail
