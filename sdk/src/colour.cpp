@@ -77,7 +77,7 @@ Rgb to_rgb(const Chromaticity& xy) {
   // (.212639, .715169, .072192) by less than 1e-4 for lights near white.
   const Rgb rgb = xyz_to_rgb * Vec3d{xy.x, xy.y, 1 - xy.x - xy.y};
   const double luminance = luminance_of(rgb);
-  return luminance > 0 ? rgb / luminance : Rgb{0, 0, 0};
+  return xy.y > 0 && luminance > 0 ? rgb / luminance : Rgb{0, 0, 0};
 }
 
 Chromaticity to_chromaticity(const Rgb& rgb) {

@@ -199,7 +199,7 @@ double in_exponent_range(double ev) { return std::clamp(ev, -1000.0, 1000.0); }
 // L = 2^EV K / S at S = 100.
 double luminance_of_ev100(double ev100) { return std::exp2(in_exponent_range(ev100)) * meter_k / 100; }
 double ev100_of_luminance(double luminance_cd_m2) {
-  return std::log2(std::max(luminance_cd_m2, std::numeric_limits<double>::min()) * 100 / meter_k);
+  return std::log2(std::max(luminance_cd_m2, std::numeric_limits<double>::min())) - std::log2(meter_k / 100);
 }
 // Saturation is at H = 78/S = q L t / N^2, hence 1 / L_max = 1 / (1.2 2^EV).
 double exposure_of_ev100(double ev100) { return std::exp2(-in_exponent_range(ev100)) / saturation_lens; }
