@@ -1,0 +1,61 @@
+#include "cache.h"
+
+#include "digest.h"
+#include "etendue/io.h"
+
+#include <pugixml.hpp>
+#include <sstream>
+
+namespace etendue::mitsuba {
+namespace {
+
+constexpr std::uint64_t largest_file = std::uint64_t{1} << 32;
+
+// Replaces the names of files below `node` by digests of their content.
+Status name_by_content(pugi::xml_node node, const std::filesystem::path& folder) {
+  for (pugi::xml_node child : node.children()) {
+    if (std::string_view(child.name()) == "string" && std::string_view(child.attribute("name").value()) == "filename") {
+      Result<std::vector<std::byte>> bytes = read_file(folder / child.attribute("value").value(), largest_file);
+      if (!bytes) return bytes.error();
+      child.attribute("value") = digest_of(*bytes).c_str();
+    }
+    if (Status s = name_by_content(child, folder); !s) return s;
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<std::string> key_of(const Mitsuba& mitsuba, const MitsubaJob& job) {
+  Result<std::vector<std::byte>> bytes = read_file(job.scene, largest_file);
+  if (!bytes) return bytes.error();
+  pugi::xml_document document;
+  if (const pugi::xml_parse_result parsed = document.load_buffer(bytes->data(), bytes->size()); !parsed) {
+    return Error{"MITSUBA_FAILED", std::string("expected an XML file: ") + parsed.description(), {job.scene.string(), 0, 0, {}}, {}, {}};
+  }
+  if (Status s = name_by_content(document, job.scene.parent_path()); !s) return s.error();
+  std::ostringstream text;
+  document.save(text);
+  text << '\n' << job.samples << ' ' << job.seeds << ' ' << job.first_seed << ' ' << mitsuba.variant << ' ' << mitsuba.version;
+  return digest_of(text.str());
+}
+
+std::optional<Picture> PictureCache::find(const std::string& key) const {
+  if (!folder_) return std::nullopt;
+  const std::filesystem::path file = *folder_ / (key + ".exr");
+  std::error_code ec;
+  if (!std::filesystem::exists(file, ec)) return std::nullopt;
+  Result<Picture> picture = read_exr(file);
+  if (!picture || !picture->find("variance")) return std::nullopt;
+  return std::move(*picture);
+}
+
+Status PictureCache::keep(const std::string& key, const Picture& picture) const {
+  if (!folder_) return Done{};
+  std::error_code ec;
+  std::filesystem::create_directories(*folder_, ec);
+  if (ec) return Error{"FILE_UNWRITABLE", "cannot make the cache: " + ec.message(), {folder_->string(), 0, 0, {}}, {}, {}};
+  return write_exr(picture, *folder_ / (key + ".exr"));
+}
+
+}  // namespace etendue::mitsuba

@@ -1,0 +1,28 @@
+// Pictures of Mitsuba by what they were made from.
+#pragma once
+
+#include "etendue/picture.h"
+#include "run.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace etendue::mitsuba {
+
+// Digest of the scene file with every file name in it replaced by the digest of that file, of samples, seeds, variant and version. Where
+// the files lie does not matter. Errors: FILE_UNREADABLE, MITSUBA_FAILED where the scene file is no XML.
+Result<std::string> key_of(const Mitsuba& mitsuba, const MitsubaJob& job);
+
+class PictureCache {
+ public:
+  explicit PictureCache(std::optional<std::filesystem::path> folder) : folder_(std::move(folder)) {}
+  // A file that cannot be read counts as missing.
+  std::optional<Picture> find(const std::string& key) const;
+  Status keep(const std::string& key, const Picture& picture) const;
+
+ private:
+  std::optional<std::filesystem::path> folder_;
+};
+
+}  // namespace etendue::mitsuba
