@@ -29,6 +29,7 @@ std::vector<std::string> nearest_candidates(std::string_view word, const std::ve
     const Candidate* candidate;
   };
   std::vector<Ranked> ranked;
+  ranked.reserve(candidates.size());
   for (const Candidate& c : candidates) ranked.push_back({edit_distance(word, c.text), &c});
   std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.distance < b.distance; });
   std::vector<std::string> nearest;
