@@ -1,0 +1,77 @@
+// A glTF document that has been read and checked against the schema, and its bytes on demand.
+// tinygltf turns the JSON into its model. It is never given a file name, a buffer or an image: buffers are loaded here when the first
+// accessor asks for them, from inside the asset's folder only, and pictures are not opened at all.
+#pragma once
+
+#include "etendue/io.h"
+#include "schema.h"
+
+#include <tiny_gltf.h>
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace etendue::gltf {
+
+class Asset {
+ public:
+  // Errors: what stops everything (unreadable file, broken container or JSON, another major version). All else is in diagnostics().
+  static Result<std::unique_ptr<Asset>> open(const std::filesystem::path& file, const ImportOptions& options);
+  ~Asset();
+  Asset(const Asset&) = delete;
+  Asset& operator=(const Asset&) = delete;
+
+  const tinygltf::Model& model() const { return model_; }  // without buffers and images
+  // The document itself: extensions are read from here, since tinygltf keeps their integers in 32 bits.
+  const nlohmann::json& json() const { return *json_; }
+  // The object of an extension of the object at `pointer`, if there is one.
+  const nlohmann::json* extension(const std::string& pointer, const char* name) const;
+  const std::vector<ExtensionUse>& extensions() const { return extensions_; }
+  const ImportOptions& options() const { return options_; }
+  const std::filesystem::path& folder() const { return folder_; }
+
+  // Bytes of a bufferView, which stay valid. Loads its buffer at the first call.
+  Result<std::span<const std::byte>> view(int index);
+
+  Where at(const std::string& pointer) const;
+  Error failure(std::string code, std::string text, const std::string& pointer) const;
+  void error(std::string code, std::string text, const std::string& pointer);
+  void error(const Error& error);
+  void warning(std::string code, std::string text, const std::string& pointer);
+  void note(std::string code, std::string text, const std::string& pointer);
+
+  Diagnostics diagnostics;
+  Stats stats;
+
+ private:
+  Asset() = default;
+  Status parse(std::string_view text);
+  Status check_version() const;
+  void load_model();
+  Result<std::span<const std::byte>> buffer(int index);
+  Result<std::vector<std::byte>> load_buffer(const std::string& uri, std::uint64_t byte_length, const std::string& pointer);
+
+  std::filesystem::path file_, folder_;
+  ImportOptions options_;
+  std::vector<std::byte> bytes_;
+  std::optional<std::span<const std::byte>> binary_;  // into bytes_
+  std::unique_ptr<nlohmann::json> json_;
+  tinygltf::Model model_;
+  std::vector<ExtensionUse> extensions_;
+  std::map<int, std::vector<std::byte>> loaded_;
+};
+
+// A number of an object; `otherwise` where it is absent (or of another type, which the schema's check has reported).
+double number_or(const nlohmann::json& object, const char* key, double otherwise);
+// The same of an array of numbers, element by element.
+double number_or(const nlohmann::json& object, const char* key, std::size_t element, double otherwise);
+std::string text_or(const nlohmann::json& object, const char* key, std::string otherwise);
+
+}  // namespace etendue::gltf

@@ -1,0 +1,55 @@
+#include "gltf.h"
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+#include <string_view>
+
+#include "container.h"
+#include "nodes.h"
+#include "unrepresented.h"
+
+namespace etendue {
+namespace {
+
+class GltfImporter final : public Importer {
+ public:
+  FormatInfo describe() const override {
+    return {"gltf", "glTF 2.0", {".gltf", ".glb"}, "Khronos' scene format, JSON or binary, with its light extensions"};
+  }
+
+  // GLB by its magic; JSON by the member that every glTF has, which need not be near the beginning.
+  int sniff(std::span<const std::byte> head) const override {
+    if (gltf::is_glb(head)) return 100;
+    const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+    const auto first = std::find_if(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c) == 0; });
+    if (first == text.end() || *first != '{') return 0;
+    const auto contains = [&](std::string_view key) { return text.find(key) != std::string_view::npos; };
+    if (contains("\"etendue\"")) return 0;
+    if (contains("\"asset\"") && contains("\"version\"")) return 90;
+    return contains("\"bufferViews\"") || contains("\"accessors\"") || contains("\"extensionsUsed\"") ? 80 : 5;
+  }
+
+  Result<Imported> read(const std::filesystem::path& file, const ImportOptions& options) const override {
+    try {
+      auto asset = gltf::Asset::open(file, options);
+      if (!asset) return asset.error();
+      Imported imported;
+      imported.scene.file = file.string();
+      imported.scene.format = "gltf";
+      gltf::name_unrepresented(**asset);
+      gltf::Nodes(**asset, imported.scene).read_default_scene();
+      imported.diagnostics = std::move((*asset)->diagnostics);
+      imported.stats = (*asset)->stats;
+      return imported;
+    } catch (const std::exception& e) {  // memory, and what libraries throw
+      return Error{"READ_FAILED", std::string("the file cannot be read: ") + e.what(), {file.string(), 0, 0, ""}, {}, {}};
+    }
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Importer> make_gltf_importer() { return std::make_unique<GltfImporter>(); }
+
+}  // namespace etendue

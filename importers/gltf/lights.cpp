@@ -1,0 +1,102 @@
+#include "lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace etendue::gltf {
+namespace {
+
+using Json = nlohmann::json;
+
+const Json* light_at(Asset& asset, const char* extension, int index, std::string& pointer) {
+  pointer = fmt::format("/extensions/{}/lights/{}", extension, index);
+  const Json::json_pointer place(pointer);
+  return index >= 0 && asset.json().contains(place) && asset.json().at(place).is_object() ? &asset.json().at(place) : nullptr;
+}
+
+// What both extensions share. Their colour multiplies the intensity channel by channel: it is a filter, and the light's photometric value
+// is intensity x Y(colour).
+Light common_light(const Json& source, const std::string& pointer, const Transform& node_to_world) {
+  Light light;
+  light.name = text_or(source, "name", "");
+  light.source = pointer;
+  light.filter = {number_or(source, "color", 0, 1), number_or(source, "color", 1, 1), number_or(source, "color", 2, 1)};
+  light.transform = node_to_world.rigid();
+  return light;
+}
+
+std::optional<Shape> spot_shape(Asset& asset, const Json& source, const std::string& pointer) {
+  const Json none = Json::object();
+  const auto found = source.find("spot");
+  const Json& spot = found != source.end() && found->is_object() ? *found : none;
+  const double inner = number_or(spot, "innerConeAngle", 0), outer = number_or(spot, "outerConeAngle", pi / 4);
+  // Files written in single precision hold a float's pi/2, 4.4e-8 above ours.
+  if (!(inner >= 0 && inner < outer && outer <= pi / 2 + 1e-6)) {
+    asset.error("KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES",
+                fmt::format("expected 0 <= innerConeAngle < outerConeAngle <= pi/2, found {} and {}", inner, outer), pointer + "/spot");
+    return std::nullopt;
+  }
+  return SpotShape{inner, std::min(outer, pi / 2)};
+}
+
+}  // namespace
+
+std::optional<Light> punctual_light(Asset& asset, int index, const Transform& node_to_world) {
+  std::string pointer;
+  const Json* source = light_at(asset, "KHR_lights_punctual", index, pointer);
+  if (source == nullptr) return std::nullopt;
+  Light light = common_light(*source, pointer, node_to_world);
+  const std::string type = text_or(*source, "type", "");
+  light.emission.value = number_or(*source, "intensity", 1);
+  light.emission.given = Emission::Given::intensity;
+  if (type == "point") {
+    light.shape = PointShape{};
+  } else if (type == "spot") {
+    const auto spot = spot_shape(asset, *source, pointer);
+    if (!spot) return std::nullopt;
+    light.shape = *spot;
+  } else if (type == "directional") {
+    light.shape = DistantShape{};
+    light.emission.given = Emission::Given::illuminance;
+    if (source->contains("range"))
+      asset.warning("NOT_REPRESENTED", "a directional light has no place and so no range; it is ignored", pointer + "/range");
+    return light;
+  } else {
+    return std::nullopt;  // reported by the schema's check
+  }
+  if (const double range = number_or(*source, "range", 0); range > 0) {
+    light.range_m = range;
+    light.falloff = Falloff::gltf;
+  }
+  return light;
+}
+
+std::optional<Light> area_light(Asset& asset, int index, const Transform& node_to_world) {
+  std::string pointer;
+  const Json* source = light_at(asset, "EXT_lights_area", index, pointer);
+  if (source == nullptr) return std::nullopt;
+  Light light = common_light(*source, pointer, node_to_world);
+  const std::string type = text_or(*source, "type", "");
+  light.emission.given = Emission::Given::luminance;
+  light.emission.value = number_or(*source, "intensity", 1000);
+
+  // "The light's size is its size property multiplied by the absolute value of the largest component of the node's world scale."
+  const auto& columns = node_to_world.columns;
+  const double scale = std::max({length(columns[0]), length(columns[1]), length(columns[2])});
+  const double size = scale * number_or(*source, "size", 1);
+  if (type == "rect") {
+    const Json none = Json::object();
+    const auto rect = source->find("rect");
+    light.shape = RectShape{size * number_or(rect != source->end() && rect->is_object() ? *rect : none, "aspect", 1), size};
+  } else if (type == "disk") {
+    light.shape = DiskShape{size / 2};
+  } else {
+    return std::nullopt;  // reported by the schema's check
+  }
+  return light;
+}
+
+}  // namespace etendue::gltf

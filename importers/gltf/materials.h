@@ -1,0 +1,39 @@
+// glTF materials, textures and images as ours, read when the first primitive uses them.
+#pragma once
+
+#include "asset.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+namespace etendue::gltf {
+
+class Materials {
+ public:
+  // What is used is appended to the scene's materials (if Need asks for materials) and images.
+  Materials(Asset& asset, Scene& scene) : asset_(asset), scene_(scene) {}
+
+  struct Entry {
+    Material material;
+    std::uint32_t index = no_index;  // in Scene::materials; no_index: glTF's default is not needed there
+    int uv_set = 0;                  // TEXCOORD_n of its textures
+    bool wants_uvs = false, wants_tangents = false;
+  };
+  // -1 is glTF's default material.
+  const Entry& at(int material);
+
+ private:
+  Entry read(int material);
+  std::optional<Texture> texture(const std::string& pointer, int texture, int tex_coord, Encoding encoding);
+  std::optional<std::uint32_t> image(int image);
+  void name_losses(const tinygltf::Material& source, const std::string& pointer);
+  void choose_uv_set(Entry& entry, const std::string& pointer);
+
+  Asset& asset_;
+  Scene& scene_;
+  std::map<int, Entry> entries_;
+  std::map<int, std::optional<std::uint32_t>> images_;
+};
+
+}  // namespace etendue::gltf
