@@ -1,6 +1,7 @@
 #include "asset.h"
 
-#include <cmath>
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 
@@ -35,6 +36,13 @@ void check_conditional(const Json& objects, const std::string& pointer, const ch
   }
 }
 
+std::vector<std::string> tokens_of(const std::string& pointer) {
+  std::vector<std::string> tokens;
+  for (Json::json_pointer rest(pointer); !rest.empty(); rest.pop_back()) tokens.push_back(rest.back());
+  std::reverse(tokens.begin(), tokens.end());
+  return tokens;
+}
+
 }  // namespace
 
 Asset::~Asset() = default;
@@ -55,24 +63,36 @@ Result<std::unique_ptr<Asset>> Asset::open(const std::filesystem::path& file, co
     return container.error();
   }
   asset->binary_ = container->binary;
-  if (auto parsed = asset->parse(container->json); !parsed) return parsed.error();
+  if (auto parsed = asset->parse(container->json, !is_glb(asset->bytes_)); !parsed) return parsed.error();
   if (auto version = asset->check_version(); !version) return version.error();
 
   SchemaFindings findings = check_schema(*asset->json_, options.max_items);
   for (Diagnostic& diagnostic : findings.diagnostics) {
     diagnostic.where = asset->at(diagnostic.where.pointer);
-    asset->diagnostics.add(std::move(diagnostic));
+    asset->add(std::move(diagnostic));
   }
   asset->extensions_ = std::move(findings.extensions);
   asset->load_model();
   return asset;
 }
 
-Status Asset::parse(std::string_view text) {
+Status Asset::parse(std::string_view text, bool is_text_file) {
   if (text.size() > max_json_bytes)
     return failure("LIMIT_EXCEEDED", fmt::format("{} bytes of JSON are over the limit of {}", text.size(), max_json_bytes), "");
-  if (const std::size_t depth = nesting_depth(text); depth > static_cast<std::size_t>(options_.max_depth))
-    return failure("LIMIT_EXCEEDED", fmt::format("JSON nested {} deep is over the limit of {}", depth, options_.max_depth), "");
+  JsonLimits limits;
+  limits.max_depth = options_.max_depth;
+  auto document = JsonDocument::parse(text, file_.string(), limits);
+  if (!document) {
+    if (!is_text_file) document.error().where = {file_.string(), 0, 0, document.error().where.pointer};
+    return document.error();
+  }
+  for (const JsonValue& duplicate : document->duplicate_keys())
+    add({Severity::error,
+         "DUPLICATE_PROPERTY",
+         fmt::format("the member \"{}\" stands here a second time", duplicate.key()),
+         is_text_file ? duplicate.where_key() : Where{file_.string(), 0, 0, duplicate.pointer()},
+         {}});
+  if (is_text_file) text_ = std::move(*document);
   try {
     json_ = std::make_unique<Json>(Json::parse(text.begin(), text.end()));
   } catch (const Json::exception& e) {
@@ -131,19 +151,43 @@ const Json* Asset::extension(const std::string& pointer, const char* name) const
   return json_->contains(place) && json_->at(place).is_object() ? &json_->at(place) : nullptr;
 }
 
-Where Asset::at(const std::string& pointer) const { return {file_.string(), 0, 0, pointer}; }
+// The place of the value, or of the nearest one around it where something is missing.
+Where Asset::at(const std::string& pointer) const {
+  Where where{file_.string(), 0, 0, pointer};
+  if (!text_) return where;
+  JsonValue value = text_->root();
+  for (const std::string& token : tokens_of(pointer)) {
+    const JsonValue next = value.is(JsonKind::array) ? value.element(std::strtoull(token.c_str(), nullptr, 10)) : value.find(token);
+    if (!next) break;
+    value = next;
+  }
+  const Where found = value.where();
+  where.line = found.line;
+  where.column = found.column;
+  return where;
+}
+
 Error Asset::failure(std::string code, std::string text, const std::string& pointer) const {
   return {std::move(code), std::move(text), at(pointer), {}, {}};
 }
-void Asset::error(std::string code, std::string text, const std::string& pointer) {
-  diagnostics.error(std::move(code), std::move(text), at(pointer));
+
+void Asset::add(Diagnostic diagnostic) {
+  std::size_t& count = diagnostic.severity == Severity::error ? errors_ : others_;
+  if (++count > max_findings + 1) return;
+  if (count == max_findings + 1)
+    diagnostic = {diagnostic.severity, "TOO_MANY_ISSUES", "there is more of this kind, which is not listed", {}, {}};
+  diagnostics_.add(std::move(diagnostic));
 }
-void Asset::error(const Error& error) { diagnostics.add(to_diagnostic(error)); }
+
+void Asset::error(std::string code, std::string text, const std::string& pointer) {
+  add({Severity::error, std::move(code), std::move(text), at(pointer), {}});
+}
+void Asset::error(const Error& error) { add(to_diagnostic(error)); }
 void Asset::warning(std::string code, std::string text, const std::string& pointer) {
-  diagnostics.warning(std::move(code), std::move(text), at(pointer));
+  add({Severity::warning, std::move(code), std::move(text), at(pointer), {}});
 }
 void Asset::note(std::string code, std::string text, const std::string& pointer) {
-  diagnostics.note(std::move(code), std::move(text), at(pointer));
+  add({Severity::note, std::move(code), std::move(text), at(pointer), {}});
 }
 
 Result<std::span<const std::byte>> Asset::view(int index) {

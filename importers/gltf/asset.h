@@ -4,6 +4,7 @@
 #pragma once
 
 #include "etendue/io.h"
+#include "json_text.h"
 #include "schema.h"
 
 #include <tiny_gltf.h>
@@ -47,12 +48,14 @@ class Asset {
   void warning(std::string code, std::string text, const std::string& pointer);
   void note(std::string code, std::string text, const std::string& pointer);
 
-  Diagnostics diagnostics;
+  // Messages so far; at most max_findings errors and as many others, then one that says so.
+  Diagnostics take_diagnostics() { return std::move(diagnostics_); }
+  void add(Diagnostic diagnostic);
   Stats stats;
 
  private:
   Asset() = default;
-  Status parse(std::string_view text);
+  Status parse(std::string_view text, bool is_text_file);
   Status check_version() const;
   void load_model();
   Result<std::span<const std::byte>> buffer(int index);
@@ -66,6 +69,9 @@ class Asset {
   tinygltf::Model model_;
   std::vector<ExtensionUse> extensions_;
   std::map<int, std::vector<std::byte>> loaded_;
+  std::optional<JsonDocument> text_;  // where each value stands in a .gltf; not for a GLB, whose lines nobody sees
+  Diagnostics diagnostics_;
+  std::size_t errors_ = 0, others_ = 0;
 };
 
 // A number of an object; `otherwise` where it is absent (or of another type, which the schema's check has reported).

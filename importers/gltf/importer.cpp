@@ -39,7 +39,7 @@ class GltfImporter final : public Importer {
       imported.scene.format = "gltf";
       gltf::name_unrepresented(**asset);
       gltf::Nodes(**asset, imported.scene).read_default_scene();
-      imported.diagnostics = std::move((*asset)->diagnostics);
+      imported.diagnostics = (*asset)->take_diagnostics();
       imported.stats = (*asset)->stats;
       return imported;
     } catch (const std::exception& e) {  // memory, and what libraries throw

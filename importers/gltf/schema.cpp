@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -84,6 +83,8 @@ class Checker {
 
  private:
   void add(Severity severity, const char* code, std::string text, const std::string& pointer) {
+    std::size_t& count = severity == Severity::error ? errors_ : warnings_;
+    if (++count > max_findings) return;
     findings.diagnostics.push_back({severity, code, std::move(text), {"", 0, 0, pointer}, {}});
   }
   void error(const char* code, std::string text, const std::string& pointer) { add(Severity::error, code, std::move(text), pointer); }
@@ -200,7 +201,7 @@ class Checker {
   }
 
   const Json& root_;
-  std::size_t max_items_;
+  std::size_t max_items_, errors_ = 0, warnings_ = 0;
 };
 
 }  // namespace
@@ -223,25 +224,6 @@ std::string pointer_to(const std::string& parent, const std::string& key) {
     }
   }
   return pointer;
-}
-
-std::size_t nesting_depth(std::string_view json) {
-  std::size_t depth = 0, deepest = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      in_string = c != '"';
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '{' || c == '[') {
-      deepest = std::max(deepest, ++depth);
-    } else if ((c == '}' || c == ']') && depth > 0) {
-      --depth;
-    }
-  }
-  return deepest;
 }
 
 }  // namespace etendue::gltf

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace etendue::gltf {
@@ -53,13 +52,12 @@ struct SchemaFindings {
   std::vector<ExtensionUse> extensions;  // every member of every "extensions" object
 };
 
-// Types, required properties, ranges, enumerations, and that every index points to something. Codes are the validator's.
+// Types, required properties, ranges, enumerations, and that every index points to something. Codes are the validator's. Beyond
+// max_findings of a severity the rest is not listed.
+constexpr std::size_t max_findings = 1000;
 SchemaFindings check_schema(const nlohmann::json& root, std::size_t max_items);
 
 // Appends a token to a JSON pointer, escaped as RFC 6901 wants it.
 std::string pointer_to(const std::string& parent, const std::string& key);
-
-// Deepest nesting of brackets, found without parsing (parsers and their trees recurse).
-std::size_t nesting_depth(std::string_view json);
 
 }  // namespace etendue::gltf

@@ -60,8 +60,7 @@ void name_extensions(Asset& asset) {
     const bool is_known = found != std::end(known);
     std::string text = fmt::format("{}: {}", name, is_known ? found->loss : "an extension that is not read; what it says is lost");
     if (pointers.size() > 1) text += fmt::format(" ({} places, the first is shown)", pointers.size());
-    asset.diagnostics.add(
-        {is_known ? found->severity : Severity::warning, "NOT_REPRESENTED", std::move(text), asset.at(pointers.front()), {}});
+    asset.add({is_known ? found->severity : Severity::warning, "NOT_REPRESENTED", std::move(text), asset.at(pointers.front()), {}});
   }
 }
 

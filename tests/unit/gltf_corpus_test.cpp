@@ -1,0 +1,76 @@
+// Real files: those of the scene folders are read, those of Khronos' validator never break the reader.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "gltf_builder.h"
+
+namespace etendue::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path corpus = fs::path(ETENDUE_SOURCE_DIR) / ".." / "shared" / "corpus" / "gltf";
+
+std::vector<fs::path> assets_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const auto extension = entry.path().extension();
+    if (extension == ".gltf" || extension == ".glb") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool has_code(const Imported& imported, const char* code) {
+  for (const Diagnostic& d : imported.diagnostics.all())
+    if (d.code == code) return true;
+  return false;
+}
+
+TEST(GltfCorpus, ScenesAreRead) {
+  if (!fs::exists(corpus)) GTEST_SKIP() << "../shared/corpus/gltf is not there";
+  int read = 0, refused = 0;
+  for (const char* folder : {"bevyengine__bevy", "KhronosGroup__glTF", "sbtron__glTF-Sample-Models", "bghgary__glTF-Asset-Generator"}) {
+    for (const fs::path& file : assets_below(corpus / folder)) {
+      SCOPED_TRACE(file.filename().string());
+      const auto imported = read_gltf(file);
+      ASSERT_TRUE(imported.ok()) << imported.error().text;
+      // The asset generator's files require the specular-glossiness extension: the only reason that counts.
+      const bool needs_more = has_code(*imported, "UNSUPPORTED_REQUIRED_EXTENSION");
+      EXPECT_EQ(imported->diagnostics.has_errors(), needs_more) << all_text(imported->diagnostics);
+      EXPECT_EQ(needs_more, std::string(folder) == "bghgary__glTF-Asset-Generator");
+      EXPECT_FALSE(imported->scene.meshes.empty());
+      const Diagnostics faults = validate(imported->scene);
+      EXPECT_FALSE(faults.has_errors()) << all_text(faults);
+      ++(needs_more ? refused : read);
+    }
+  }
+  EXPECT_EQ(read, 6);
+  EXPECT_EQ(refused, 7);
+}
+
+TEST(GltfCorpus, ValidatorFilesNeverBreakTheReader) {
+  const fs::path folder = corpus / "KhronosGroup__glTF-Validator";
+  if (!fs::exists(folder)) GTEST_SKIP() << "../shared/corpus/gltf is not there";
+  int invalid = 0, invalid_refused = 0, valid = 0, valid_refused = 0;
+  for (const fs::path& file : assets_below(folder)) {
+    const fs::path report_file = file.string() + ".report.json";
+    const auto imported = read_gltf(file);
+    const bool refused = !imported.ok() || imported->diagnostics.has_errors();
+    if (!fs::exists(report_file)) continue;
+    std::ifstream stream(report_file);
+    const Json report = Json::parse(stream);
+    const bool is_invalid = report["issues"]["numErrors"].get<int>() > 0;
+    ++(is_invalid ? invalid : valid);
+    if (refused) ++(is_invalid ? invalid_refused : valid_refused);
+    if (std::getenv("ETENDUE_CORPUS_LIST") != nullptr && refused != is_invalid)
+      std::printf("%s %s\n", is_invalid ? "accepted, invalid:" : "refused, valid:  ", fs::relative(file, folder).c_str());
+  }
+  std::printf("refused: %d of %d invalid files, %d of %d valid ones\n", invalid_refused, invalid, valid_refused, valid);
+  EXPECT_GT(invalid, 100);
+  EXPECT_GT(valid, 50);
+}
+
+}  // namespace
+}  // namespace etendue::test
