@@ -11,10 +11,10 @@ import sys
 
 sys.dont_write_bytecode = True
 
-from scenes import kitchen  # noqa: E402  (after the line that keeps the source tree clean)
+from scenes import kitchen, street, studio, table  # noqa: E402  (after the line that keeps the source tree clean)
 
 HERE = pathlib.Path(__file__).resolve().parent
-SCENES = {"kitchen": kitchen.build}
+SCENES = {"kitchen": kitchen.build, "studio": studio.build, "street": street.build, "table": table.build}
 
 
 def main():

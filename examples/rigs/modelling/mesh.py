@@ -91,3 +91,20 @@ def length(a):
 def unit(a):
     size = length(a)
     return tuple(x / size for x in a) if size > 0 else tuple(0.0 for _ in a)
+
+
+def frame(position, target):
+    """Right, up and back of something at `position` whose -Z points to the target, with X level."""
+    back = unit(sub(position, target))
+    right = unit(cross((0.0, 1.0, 0.0), back))
+    return right, cross(back, right), back
+
+
+def aimed_mesh(mesh, position, target):
+    """A mesh modelled around the origin, facing -Z, placed like a light that is aimed at the target."""
+    right, up, back = frame(position, target)
+
+    def turn(p):
+        return tuple(right[i] * p[0] + up[i] * p[1] + back[i] * p[2] for i in range(3))
+
+    return mesh.mapped(lambda p: plus(position, turn(p)), turn)

@@ -3,7 +3,7 @@
 import json
 import math
 
-from modelling.mesh import cross, dot, sub, unit
+from modelling.mesh import dot, frame
 
 WIDTH = 150
 
@@ -36,9 +36,7 @@ TOWARDS_VIEWER = [0, 1, 0, 0]
 
 def aimed(position, target):
     """The quaternion (x, y, z, w) that turns -Z towards the target and keeps X level."""
-    back = unit(sub(position, target))
-    right = unit(cross((0.0, 1.0, 0.0), back))
-    up = cross(back, right)
+    right, up, back = frame(position, target)
     # Columns right, up, back of a rotation matrix to a quaternion: the largest component first (Shepperd 1978).
     m = [[right[i], up[i], back[i]] for i in range(3)]
     trace = m[0][0] + m[1][1] + m[2][2]

@@ -1,5 +1,6 @@
 """A kitchen in the evening: five downlights, a tube under the cabinets, an opal pendant and a window at blue hour."""
 
+from modelling.masonry import bonded
 from modelling.mesh import merged
 from modelling.model import Model
 from modelling.pixels import clouds, hashed, mix, noise, png, smooth
@@ -211,16 +212,8 @@ def tiles(model):
     fields = [(LEFT, x0 - 0.04, TOP, 1.62), (x0 - 0.04, x1 + 0.04, TOP, y0 - 0.03), (x1 + 0.04, 1.482, TOP, UPPER_LOW)]
     for fx0, fx1, fy0, fy1 in fields:
         model.add("grout", "grout", block(fx0, fx1, fy0, fy1, 0, 0.004, 0))
-        row, y = 0, fy0
-        while y < fy1 - 0.01:
-            x = LEFT - (0.0765 if row % 2 else 0.0)
-            while x < fx1:
-                a, b, top = max(x, fx0) + 0.0015, min(x + 0.153, fx1) - 0.0015, min(y + 0.078, fy1) - 0.0015
-                if b - a > 0.02 and top - y > 0.02:
-                    model.add("tiles", "tile", block(a, b, y + 0.0015, top, 0.002, 0.010, 0.005, back=False))
-                x += 0.153
-            y += 0.078
-            row += 1
+        for a, b, low, high in bonded(fx0, fx1, fy0, fy1, 0.153, 0.078, 0.003, start=LEFT):
+            model.add("tiles", "tile", block(a, b, low, high, 0.002, 0.010, 0.005, back=False))
 
 
 def island(model):
@@ -255,7 +248,7 @@ def on_the_worktop(model):
     model.add("board", "board", board.turned("x", -14).at(-1.72, TOP + 0.20, 0.075))
     pot = revolve([(0, 0), (0.040, 0), (0.053, 0.075), (0.058, 0.075), (0.059, 0.098), (0.053, 0.098), (0.050, 0.082), (0, 0.080)], 32)
     model.add("herbs", "terracotta", pot.at(0.43, TOP + 0.15 - 0.15, 0.16), pot.at(-0.44, 1.08, -0.02))
-    model.add("herbs", "leaf", leafy(10).at(0.43, TOP + 0.08, 0.16), leafy(9, 0.14, 9).at(-0.44, 1.16, -0.02))
+    model.add("herbs", "leaf", leafy(8).at(0.43, TOP + 0.08, 0.16), leafy(8, 0.14, 9).at(-0.44, 1.16, -0.02))
     kettle(model)
 
 
