@@ -148,9 +148,9 @@ Mesh tube_mesh(const TubeShape& tube) {
         return static_cast<std::uint32_t>(ring * sides + static_cast<std::size_t>(s % sides));
       };
       const std::uint32_t a = at(i, side), b = at(i, side + 1), c = at(i + 1, side + 1), d = at(i + 1, side);
-      // A ring of radius 0 is a point: one of both triangles has no area.
-      if (profile[i].r > 0) mesh.indices.insert(mesh.indices.end(), {a, c, b});
-      if (profile[i + 1].r > 0) mesh.indices.insert(mesh.indices.end(), {a, d, c});
+      // Counter-clockwise seen from outside. A ring of radius 0 is a point: one of both triangles has no area.
+      if (profile[i].r > 0) mesh.indices.insert(mesh.indices.end(), {a, b, c});
+      if (profile[i + 1].r > 0) mesh.indices.insert(mesh.indices.end(), {a, c, d});
     }
   }
   return mesh;
