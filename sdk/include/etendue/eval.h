@@ -85,13 +85,14 @@ struct SphereEmitter {
 };
 struct DiskEmitter {
   Vec3d centre, normal;  // normal: the emitting side
-  Vec3d x;               // unit, where uv starts
+  Vec3d x;               // unit, along which u grows; v grows along cross(x, normal); uv spans the square around the disk
   double radius;
 };
 struct PolygonEmitter {
   std::vector<Vec3d> vertices;  // counter-clockwise seen from the emitting side; simple, planar
   Vec3d normal;
-  std::array<Vec3d, 3> uv_frame;  // origin, u and v vectors: point = origin + u du + v dv
+  std::array<Vec3d, 3> uv_frame;                        // origin, u and v vectors: point = origin + u du + v dv
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // indices of vertices, covering it; for sampling
 };
 struct TubeEmitter {
   Vec3d a, b;  // centres of the caps
@@ -104,6 +105,7 @@ struct LineEmitter {
 };
 struct MeshEmitter {
   std::vector<std::array<Vec3d, 3>> triangles;  // emit on the counter-clockwise side
+  std::vector<double> running_area;             // of the triangles up to and with each; for sampling
 };
 // Latitude-longitude map; bilinear, texel-centred, periodic in u, rows clamped at the poles. Built once.
 class EnvironmentMap;
@@ -128,7 +130,8 @@ struct EmitterParts {
   std::shared_ptr<const EnvironmentMap> environment;
   Pattern pattern;
 };
-// Errors as resolve(). Photometric lights: EVALUATION_UNSUPPORTED.
+// Patterns lie upright as seen from the emitting side: uv (0, 0) is the top left there, where +Y is up (and so +X is left).
+// Errors as resolve(). EVALUATION_UNSUPPORTED: photometric lights, tubes without caps that emit on both sides.
 Result<Emitter> emitter_of(const Light& light, const EmitterParts& parts = {});
 
 // width * height linear RGB in cd/m2, row 0 at the top (+Y).
@@ -152,14 +155,15 @@ struct Estimate {
 // Environment maps are integrated by importance sampling and carry the statistical error (3 standard deviations).
 Estimate reference(const Emitter& emitter, const ShadingPoint& point, const Tolerance& tolerance);
 
-// Cosine integral of the light's luminance (lux) in closed form: sphere, disk, polygon, tube with round caps, mesh, punctual and distant
-// lights without pattern; `reference` with a white Lambert surface where there is none. Not below the horizon of `normal`.
+// Cosine integral of the light's luminance (lux) in closed form: every light without pattern, window on an extended light or environment
+// map; `reference` with a white Lambert surface for those. Not below the horizon of `normal`.
+// The inside of a sphere, tube or disk's back is dark unless the light is two-sided. From within the plane of a flat light it is not seen.
 Rgb illuminance(const Emitter& emitter, const Vec3d& position, const Vec3d& normal);
 
 // ---- Sampling, for visibility ----
 
-// A direction towards the emitter and what comes from there. delta: the only one (punctual and true directions), value is illuminance
-// facing it.
+// A direction towards the emitter and what comes from there. delta: not one of a solid angle, `radiance` is the illuminance facing it
+// (punctual lights and true directions; of a line, one of its points, with the illuminance divided by the density of the choice).
 struct LightSample {
   Vec3d direction;      // unit, from the point
   double distance = 0;  // to the emitting point; infinite for distant lights and environments

@@ -1,0 +1,42 @@
+#include "kernels.h"
+
+namespace etendue::eval {
+namespace {
+
+bool both_above(const Vec3d& view, const Vec3d& light) { return view.z > 0 && light.z > 0; }
+
+}  // namespace
+
+Rgb brdf_cos(const Brdf& brdf, const Vec3d& view, const Vec3d& light) {
+  if (!both_above(view, light)) return {};
+  return with_kernel(brdf, view, [&](const auto& kernel) { return kernel(light); });
+}
+
+// One-sample mixture of the visible-normal density and the cosine.
+double pdf_brdf(const Brdf& brdf, const Vec3d& view, const Vec3d& light) {
+  if (!both_above(view, light)) return 0;
+  const LobeFacts facts = with_kernel(brdf, view, [](const auto& kernel) { return kernel.facts(); });
+  double pdf = (1 - facts.specular_share) * light.z / pi;
+  if (facts.specular_share > 0) {
+    pdf += facts.specular_share * GgxView(facts.alpha, Masking::separable, view).pdf(half_angle(view, light));
+  }
+  return pdf;
+}
+
+DirectionSample sample_brdf(const Brdf& brdf, const Vec3d& view, const Vec2d& u) {
+  if (!(view.z > 0)) return {};
+  const LobeFacts facts = with_kernel(brdf, view, [](const auto& kernel) { return kernel.facts(); });
+  Vec3d light;
+  if (u.x < facts.specular_share) {
+    const Vec3d h = sample_visible_normal(facts.alpha, view, {u.x / facts.specular_share, u.y});
+    light = h * (2 * dot(view, h)) - view;
+  } else {
+    const double r2 = (u.x - facts.specular_share) / (1 - facts.specular_share), phi = 2 * pi * u.y;
+    light = {std::sqrt(r2) * std::cos(phi), std::sqrt(r2) * std::sin(phi), std::sqrt(std::max(1 - r2, 0.0))};
+  }
+  light = normalised(light);
+  const double pdf = pdf_brdf(brdf, view, light);
+  return pdf > 0 ? DirectionSample{light, pdf} : DirectionSample{};
+}
+
+}  // namespace etendue::eval

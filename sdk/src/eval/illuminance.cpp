@@ -1,0 +1,112 @@
+#include "illuminance.h"
+
+#include "line.h"
+#include "punctual.h"
+
+#include <algorithm>
+
+namespace etendue::eval {
+
+Contour clipped(const Contour& outline, const Horizons& horizons) {
+  Contour above = clipped(outline, Vec3d{0, 0, 1});
+  return horizons.distinct ? clipped(above, horizons.surface) : above;
+}
+
+namespace {
+
+double cosine_above(const Vec3d& direction, const Horizons& horizons) {
+  return horizons.distinct && !(dot(direction, horizons.surface) > 0) ? 0 : std::max(direction.z, 0.0);
+}
+
+// A cap of half angle sigma wholly above the horizons: pi sin^2(sigma) cos(theta).
+double cap_form(const Vec3d& axis, double sine, double cosine, const Horizons& horizons) {
+  if (axis.z <= -sine) return 0;
+  if (axis.z >= sine && (!horizons.distinct || dot(axis, horizons.surface) >= sine)) return pi * sine * sine * axis.z;
+  return std::max(direction_integral(clipped(Contour{cap_circle(axis, cosine, sine)}, horizons)).z, 0.0);
+}
+
+struct ClosedForm {
+  const Emitter& emitter;
+  const Vec3d& position;
+  const LocalFrame& frame;
+  const Horizons& horizons;
+
+  Rgb operator()(const PunctualEmitter& e) const {
+    const auto incident = incident_from(e, emitter.window, position);
+    return incident ? incident->illuminance * cosine_above(frame.vector(incident->towards), horizons) : Rgb{};
+  }
+  // A disk in the sky with the illuminance E on a plane facing it has the luminance E / (pi sin^2 rho).
+  Rgb operator()(const DistantEmitter& e) const {
+    const Vec3d towards = frame.vector(e.towards);
+    if (!(e.radius_rad > 0)) return e.illuminance * cosine_above(towards, horizons);
+    const double sine = std::sin(e.radius_rad);
+    return e.illuminance * (cap_form(towards, sine, std::cos(e.radius_rad), horizons) / (pi * sine * sine));
+  }
+  Rgb operator()(const SphereEmitter& e) const {
+    const Vec3d centre = frame.point(e.centre);
+    const double d = length(centre);
+    if (!(d > e.radius)) return outlines();
+    const double cosine = std::sqrt((d - e.radius) * (d + e.radius)) / d;
+    return emitter.radiance * cap_form(centre / d, e.radius / d, cosine, horizons);
+  }
+  Rgb operator()(const PolygonEmitter& e) const {
+    if (e.vertices.size() < 3) return {};
+    const double height = -dot(frame.point(e.vertices[0]), frame.vector(e.normal));
+    if (!(height > 0 || (emitter.two_sided && height < 0))) return {};
+    std::array<Vec3d, 8> few;
+    std::vector<Vec3d> many;
+    std::span<Vec3d> vertices(few.data(), std::min(e.vertices.size(), few.size()));
+    if (e.vertices.size() > few.size()) {
+      many.resize(e.vertices.size());
+      vertices = many;
+    }
+    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = frame.point(e.vertices[i]);
+    return emitter.radiance * std::abs(projected_solid_angle(vertices, horizons));
+  }
+  Rgb operator()(const MeshEmitter& e) const {
+    double sum = 0;
+    for (const auto& triangle : e.triangles) {
+      const std::array<Vec3d, 3> t{frame.point(triangle[0]), frame.point(triangle[1]), frame.point(triangle[2])};
+      const bool front = dot(cross(t[1] - t[0], t[2] - t[0]), t[0]) < 0;
+      if (front || emitter.two_sided) sum += std::abs(projected_solid_angle(t, horizons));
+    }
+    return emitter.radiance * sum;
+  }
+  Rgb operator()(const LineEmitter& e) const {
+    auto view = line_view(frame.point(e.a), frame.point(e.b));
+    if (!view) return {};
+    clip(*view, {0, 0, 1});
+    if (horizons.distinct) clip(*view, horizons.surface);
+    return e.intensity * std::max(direction_integral(*view).z, 0.0);
+  }
+  template <class Other>
+  Rgb operator()(const Other&) const {
+    return outlines();
+  }
+  Rgb outlines() const {
+    double sum = 0;
+    each_outline(emitter, frame, [&](const Contour& outline, std::size_t) { sum += direction_integral(clipped(outline, horizons)).z; });
+    return emitter.radiance * std::max(sum, 0.0);
+  }
+};
+
+}  // namespace
+
+std::optional<Rgb> closed_illuminance(const Emitter& emitter, const Vec3d& position, const LocalFrame& frame, const Horizons& horizons) {
+  if (emitter.pattern) return std::nullopt;
+  const bool punctual = std::holds_alternative<PunctualEmitter>(emitter.shape) || std::holds_alternative<DistantEmitter>(emitter.shape);
+  if (!punctual && emitter.window.falloff != Falloff::inverse_square && emitter.window.range_m > 0) return std::nullopt;
+  const auto* environment = std::get_if<EnvironmentEmitter>(&emitter.shape);
+  if (environment != nullptr && environment->map) return std::nullopt;
+  return std::visit(ClosedForm{emitter, position, frame, horizons}, emitter.shape);
+}
+
+Rgb illuminance(const Emitter& emitter, const Vec3d& position, const Vec3d& normal) {
+  const LocalFrame frame(position, normal);
+  if (const auto closed = closed_illuminance(emitter, position, frame, {})) return *closed;
+  // A white Lambert surface reflects the luminance E / pi.
+  const ShadingPoint point{position, normal, normal, normal, Lambert{{1, 1, 1}}};
+  return reference(emitter, point, {1e-7, 0}).value * pi;
+}
+
+}  // namespace etendue::eval

@@ -1,0 +1,198 @@
+// Every BRDF prepared for one view direction: what depends on the view is computed once, what depends on the light many times.
+// A kernel gives BRDF times cosine for a unit direction above the horizon (l.z > 0), with the view above the horizon too.
+#pragma once
+
+#include "etendue/eval.h"
+#include "fresnel.h"
+#include "microfacet.h"
+
+#include <utility>
+
+namespace etendue::eval {
+
+// Facts that integration and sampling want to know of a kernel.
+struct LobeFacts {
+  double alpha = 0;           // of the specular lobe; 0: there is none
+  double specular_share = 0;  // probability with which sampling takes the specular lobe
+};
+
+struct LambertKernel {
+  LambertKernel(const Lambert& m, const Vec3d&) : scale(m.base_colour / pi) {}
+  Rgb operator()(const Vec3d& l) const { return scale * l.z; }
+  LobeFacts facts() const { return {}; }
+  Rgb scale;
+};
+
+// Disney 2012: base / pi (1 + (F90 - 1) w(n.v)) (1 + (F90 - 1) w(n.l)) with Schlick's weights and F90 = .5 + 2 roughness (v.h)^2.
+// Frostbite (Lagarde and de Rousiers, listing 1) takes F90 = .5 roughness + 2 roughness (v.h)^2 and multiplies by
+// lerp(1, 1 / 1.51, roughness).
+struct DisneyDiffuseKernel {
+  DisneyDiffuseKernel(const Rgb& base, double roughness_, double bias_, double factor, const Vec3d& view)
+      : v(view), scale(base * (factor / pi)), roughness(roughness_), bias(bias_), view_weight(schlick_weight(view.z)) {}
+  DisneyDiffuseKernel(const DisneyDiffuse& m, const Vec3d& view) : DisneyDiffuseKernel(m.base_colour, m.roughness, 0.5, 1, view) {}
+  DisneyDiffuseKernel(const FrostbiteDiffuse& m, const Vec3d& view)
+      : DisneyDiffuseKernel(m.base_colour, m.roughness, 0.5 * m.roughness, 1 + m.roughness * (1 / 1.51 - 1), view) {}
+  // Without the base colour and pi.
+  double shape(double nl, double v_dot_h) const {
+    const double f90 = bias + 2 * roughness * v_dot_h * v_dot_h - 1;
+    return (1 + f90 * schlick_weight(nl)) * (1 + f90 * view_weight);
+  }
+  Rgb operator()(const Vec3d& l) const { return scale * (l.z * shape(l.z, half_angle(v, l).v_dot_h)); }
+  LobeFacts facts() const { return {}; }
+  Vec3d v;
+  Rgb scale;
+  double roughness, bias, view_weight;
+};
+
+struct GgxKernel {
+  GgxKernel(const GgxLobe& m, const Vec3d& view) : v(view), lobe(m.alpha, m.masking, view), f0(m.f0), f90(m.f90), alpha(m.alpha) {}
+  Rgb operator()(const Vec3d& l) const {
+    const HalfAngle h = half_angle(v, l);
+    return schlick(f0, f90, schlick_weight(h.v_dot_h)) * lobe(h, l.z);
+  }
+  LobeFacts facts() const { return {std::max(alpha, min_alpha), 1}; }
+  Vec3d v;
+  GgxView lobe;
+  Rgb f0;
+  double f90, alpha;
+};
+
+struct ConductorKernel {
+  ConductorKernel(const Conductor& m, const Vec3d& view)
+      : v(view),
+        lobe(m.alpha, m.masking, view),
+        eta(m.eta),
+        k(m.k),
+        alpha(m.alpha),
+        grey(eta.x == eta.y && eta.y == eta.z && k.x == k.y && k.y == k.z) {}
+  Rgb operator()(const Vec3d& l) const {
+    const HalfAngle h = half_angle(v, l);
+    const double c = h.v_dot_h;
+    const double red = conductor_reflectance(c, eta.x, k.x);
+    const Rgb f = grey ? Rgb{red, red, red} : Rgb{red, conductor_reflectance(c, eta.y, k.y), conductor_reflectance(c, eta.z, k.z)};
+    return f * lobe(h, l.z);
+  }
+  LobeFacts facts() const { return {std::max(alpha, min_alpha), 1}; }
+  Vec3d v;
+  GgxView lobe;
+  Rgb eta, k;
+  double alpha;
+  bool grey;
+};
+
+// Share of the specular lobe in a mixture, from reflectances at the view direction; each lobe that is there keeps a tenth.
+inline double share_of(double specular, double diffuse) {
+  if (!(diffuse > 0)) return 1;
+  if (!(specular > 0)) return 0;
+  return std::clamp(specular / (specular + diffuse), 0.1, 0.9);
+}
+inline double mean_of(const Rgb& c) { return (c.x + c.y + c.z) / 3; }
+
+// Mitsuba 3's `principled` (src/bsdfs/principled.cpp) with base colour, metallic, roughness and specular, front side:
+//   specular: D G1 G1 / (4 n.v) ((1 - m) F_dielectric(v.h, eta) + m Schlick(base, v.h)), only where F_dielectric > 0,
+//   diffuse:  (1 - m) base / pi n.l times Disney's 2012 diffuse,
+//   eta = 2 / (1 - sqrt(.08 specular)) - 1, alpha = max(.001, roughness^2).
+// With specular 0, eta is 1, F_dielectric is 0 and the metal is black as well (Mitsuba issue 443): kept, because this is its twin.
+struct PrincipledKernel {
+  PrincipledKernel(const Principled& m, const Vec3d& view)
+      : v(view),
+        alpha(std::max(0.001, m.roughness * m.roughness)),
+        lobe(alpha, Masking::separable, view),
+        diffuse(m.base_colour * (1 - m.metallic), m.roughness, 0.5, 1, view),
+        base(m.base_colour),
+        metallic(m.metallic),
+        eta(2 / (1 - std::sqrt(std::clamp(0.08 * m.specular, 0.0, 0.999))) - 1),
+        has_specular(m.specular > 0) {}
+  Rgb operator()(const Vec3d& l) const {
+    const HalfAngle h = half_angle(v, l);
+    Rgb value = metallic < 1 ? diffuse.scale * (l.z * diffuse.shape(l.z, h.v_dot_h)) : Rgb{};
+    if (has_specular) {
+      const double s = lobe(h, l.z);
+      if (metallic < 1) {
+        const double f = (1 - metallic) * dielectric_reflectance(h.v_dot_h, eta) * s;
+        value += Rgb{f, f, f};
+      }
+      if (metallic > 0) value += schlick(base, 1, schlick_weight(h.v_dot_h)) * (metallic * s);
+    }
+    return value;
+  }
+  LobeFacts facts() const {
+    if (!has_specular) return {};
+    const double f = (1 - metallic) * dielectric_reflectance(v.z, eta) + metallic * mean_of(base);
+    return {alpha, share_of(f, (1 - metallic) * mean_of(base))};
+  }
+  Vec3d v;
+  double alpha;
+  GgxView lobe;
+  DisneyDiffuseKernel diffuse;
+  Rgb base;
+  double metallic, eta;
+  bool has_specular;
+};
+
+// Frostbite's standard model (Lagarde and de Rousiers 2014, 3.1, 3.2): f0 = .16 reflectance^2 (1 - m) + base m,
+// f90 = saturate(50 dot(f0, .33)), diffuse colour base (1 - m), height-correlated masking, alpha = roughness^2.
+struct StandardKernel {
+  StandardKernel(const Standard& m, const Vec3d& view)
+      : v(view),
+        alpha(std::max(m.roughness * m.roughness, min_alpha)),
+        lobe(alpha, Masking::correlated, view),
+        diffuse(FrostbiteDiffuse{m.base_colour * (1 - m.metal), m.roughness}, view),
+        f0(Rgb{1, 1, 1} * (0.16 * m.reflectance * m.reflectance * (1 - m.metal)) + m.base_colour * m.metal),
+        f90(std::clamp(50 * 0.33 * (f0.x + f0.y + f0.z), 0.0, 1.0)) {}
+  Rgb operator()(const Vec3d& l) const {
+    const HalfAngle h = half_angle(v, l);
+    return diffuse.scale * (l.z * diffuse.shape(l.z, h.v_dot_h)) + schlick(f0, f90, schlick_weight(h.v_dot_h)) * lobe(h, l.z);
+  }
+  LobeFacts facts() const { return {alpha, share_of(mean_of(schlick(f0, f90, schlick_weight(v.z))), pi * mean_of(diffuse.scale))}; }
+  Vec3d v;
+  double alpha;
+  GgxView lobe;
+  DisneyDiffuseKernel diffuse;
+  Rgb f0;
+  double f90;
+};
+
+// glTF 2.0 appendix B: mix(dielectric, metal, metallic), metal = Schlick(base) specular, dielectric = mix(base / pi, specular,
+// Schlick(f0)), with the separable form of Smith's masking (B.3.2), alpha = roughness^2.
+struct MetalRoughKernel {
+  MetalRoughKernel(const MetalRough& m, const Vec3d& view)
+      : v(view),
+        alpha(std::max(m.roughness * m.roughness, min_alpha)),
+        lobe(alpha, Masking::separable, view),
+        base(m.base_colour),
+        metallic(m.metallic),
+        f0(((m.ior - 1) / (m.ior + 1)) * ((m.ior - 1) / (m.ior + 1))) {}
+  Rgb operator()(const Vec3d& l) const {
+    const HalfAngle h = half_angle(v, l);
+    const double w = schlick_weight(h.v_dot_h), fresnel = f0 + (1 - f0) * w, s = lobe(h, l.z);
+    const double d = (1 - metallic) * fresnel * s;
+    return base * ((1 - metallic) * (1 - fresnel) * l.z / pi) + Rgb{d, d, d} + schlick(base, 1, w) * (metallic * s);
+  }
+  LobeFacts facts() const {
+    return {alpha,
+            share_of((1 - metallic) * (f0 + (1 - f0) * schlick_weight(v.z)) + metallic * mean_of(base), (1 - metallic) * mean_of(base))};
+  }
+  Vec3d v;
+  double alpha;
+  GgxView lobe;
+  Rgb base;
+  double metallic, f0;
+};
+
+inline LambertKernel kernel_of(const Lambert& m, const Vec3d& v) { return {m, v}; }
+inline PrincipledKernel kernel_of(const Principled& m, const Vec3d& v) { return {m, v}; }
+inline StandardKernel kernel_of(const Standard& m, const Vec3d& v) { return {m, v}; }
+inline ConductorKernel kernel_of(const Conductor& m, const Vec3d& v) { return {m, v}; }
+inline MetalRoughKernel kernel_of(const MetalRough& m, const Vec3d& v) { return {m, v}; }
+inline DisneyDiffuseKernel kernel_of(const DisneyDiffuse& m, const Vec3d& v) { return {m, v}; }
+inline DisneyDiffuseKernel kernel_of(const FrostbiteDiffuse& m, const Vec3d& v) { return {m, v}; }
+inline GgxKernel kernel_of(const GgxLobe& m, const Vec3d& v) { return {m, v}; }
+
+// Calls `use` with the kernel of whatever the BRDF holds: the choice is made once, not for every direction.
+template <class Use>
+auto with_kernel(const Brdf& brdf, const Vec3d& view, Use&& use) {
+  return std::visit([&](const auto& model) { return use(kernel_of(model, view)); }, brdf);
+}
+
+}  // namespace etendue::eval

@@ -1,0 +1,52 @@
+#include "punctual.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace etendue::eval {
+
+// Lagarde and de Rousiers 2014, eq 26 with n = 4, and KHR_lights_punctual's form without the square.
+double window_at(const Window& window, double distance_m) {
+  if (window.falloff == Falloff::inverse_square || !(window.range_m > 0)) return 1;
+  const double x = distance_m / window.range_m, x2 = x * x;
+  const double w = std::clamp(1 - x2 * x2, 0.0, 1.0);
+  return window.falloff == Falloff::frostbite ? w * w : w;
+}
+
+// Linear in the cosine between the cones, squared (Lagarde and de Rousiers 2014, listing 4; KHR_lights_punctual).
+double angular_falloff(const SpotShape& spot, const Vec3d& local) {
+  const double cosine = -local.z, inner = std::cos(spot.inner_rad), outer = std::cos(spot.outer_rad);
+  if (cosine >= inner) return 1;
+  if (cosine <= outer) return 0;
+  const double x = (cosine - outer) / (inner - outer);
+  return x * x;
+}
+
+double angular_falloff(const FrustumShape& frustum, const Vec3d& local) {
+  const double depth = -local.z;
+  if (!(depth > 0)) return 0;
+  const bool inside =
+      std::abs(local.x) <= depth * std::tan(0.5 * frustum.width_rad) && std::abs(local.y) <= depth * std::tan(0.5 * frustum.height_rad);
+  return inside ? 1 : 0;
+}
+
+std::optional<Incident> incident_from(const PunctualEmitter& emitter, const Window& window, const Vec3d& position) {
+  const Vec3d to_light = emitter.position - position;
+  const double distance = length(to_light);
+  // Nearer than this the inverse square leaves the range of double.
+  if (!(distance > 1e-140)) return std::nullopt;
+  const Vec3d towards = to_light / distance;
+  const auto& axes = emitter.frame.columns;
+  const Vec3d local{-dot(axes[0], towards), -dot(axes[1], towards), -dot(axes[2], towards)};
+  struct Share {
+    const Vec3d& local;
+    double operator()(const PointShape&) const { return 1; }
+    double operator()(const SpotShape& s) const { return angular_falloff(s, local); }
+    double operator()(const FrustumShape& f) const { return angular_falloff(f, local); }
+  };
+  const double share = std::visit(Share{local}, emitter.shape);
+  return Incident{towards, distance, emitter.intensity * (share * window_at(window, distance) / (distance * distance))};
+}
+
+}  // namespace etendue::eval

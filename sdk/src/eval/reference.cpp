@@ -1,0 +1,210 @@
+// The definition of the answer: closed forms where there are any, else fans over the exact outline.
+#include "environment.h"
+#include "fan.h"
+#include "illuminance.h"
+#include "kernels.h"
+#include "line.h"
+#include "line_integral.h"
+#include "modulation.h"
+#include "punctual.h"
+
+#include <algorithm>
+
+namespace etendue::eval {
+namespace {
+
+// Turns of the outline about c, by chords of its arcs: not 0 if c is inside. Close to a curved arc the chords may err; the fan is signed,
+// so that this costs work there and no correctness.
+bool encloses(const Contour& contour, const Vec3d& c) {
+  double angle = 0;
+  for (const Arc& arc : contour) {
+    const int pieces = arc.great_circle() && arc.end - arc.begin < 1.5 ? 1 : 8;
+    Vec3d from = cross(c, arc.at(arc.begin));
+    for (int i = 1; i <= pieces; ++i) {
+      const Vec3d to = cross(c, arc.at(arc.begin + (arc.end - arc.begin) * i / pieces));
+      angle += std::atan2(dot(c, cross(from, to)), dot(from, to));
+      from = to;
+    }
+  }
+  // Pieces on the far side of the sphere count too: a centre opposite to the light would be enclosed clockwise.
+  return angle > pi;
+}
+
+void mark_adjacent(Fan& fan) {
+  int found = 0;
+  for (std::size_t i = 0; i < fan.contour.size() && found < 2; ++i) {
+    const Arc& arc = fan.contour[i];
+    if (arc.great_circle() && nearest_to(arc, fan.centre).distance < 1e-14) fan.adjacent[found++] = static_cast<int>(i);
+  }
+}
+
+// Without a lobe any centre will do: a corner of a small polygon, because its two edges then drop out, else the mean direction.
+void centre_anywhere(Fan& fan) {
+  const bool few_edges = fan.contour.size() <= 4 && std::all_of(fan.contour.begin(), fan.contour.end(), [](const Arc& arc) {
+                           return arc.great_circle() && arc.end - arc.begin < 1;
+                         });
+  if (few_edges) {
+    fan.centre = fan.contour[0].at(fan.contour[0].begin);
+    mark_adjacent(fan);
+  } else {
+    const Vec3d mean = direction_integral(fan.contour);
+    fan.centre = length(mean) > 0 ? normalised(mean) : Vec3d{0, 0, 1};
+  }
+  fan.in_plane = basis_around(fan.centre).tangent;
+}
+
+// With a lobe the fan stands where the lobe is highest: at the mirror direction, or at the closest point of the outline.
+// Half an angle x in the plane of incidence moves the half vector by x, across it by x / n.v: the lobe's width is alpha and alpha n.v.
+void centre_at_lobe(Fan& fan, const Vec3d& view, double alpha) {
+  const Vec3d mirror{-view.x, -view.y, view.z};
+  double away = 0;
+  fan.centre = mirror;
+  if (!encloses(fan.contour, mirror)) {
+    Nearest best{0, 4, 1};
+    const Arc* closest = nullptr;
+    for (const Arc& arc : fan.contour) {
+      const Nearest nearest = nearest_to(arc, mirror);
+      if (nearest.distance < best.distance) best = nearest, closest = &arc;
+    }
+    if (closest != nullptr) {
+      fan.centre = normalised(closest->at(best.s));
+      away = 0.5 * best.distance;
+      mark_adjacent(fan);
+    }
+  }
+  const double across = alpha * std::max(view.z, 1e-6);
+  fan.lobe = std::clamp(std::hypot(alpha, away), 1e-9, 1.0);
+  fan.lobe_across = std::clamp(std::hypot(across, away), 1e-9, 1.0);
+  // The direction of the plane of incidence at the centre: upwards along the meridian through the normal.
+  const Vec3d& c = fan.centre;
+  const Vec3d meridian = Vec3d{0, 0, 1} - c * c.z;
+  fan.in_plane = dot(meridian, meridian) > 1e-20 ? normalised(meridian) : basis_around(c).tangent;
+  fan.has_plane = view.z < 0.4 && away < alpha;
+}
+
+struct Scaled {
+  double factor;  // largest channel of what multiplies the integral
+  explicit Scaled(const Rgb& c) : factor(std::max({c.x, c.y, c.z})) {}
+  Tolerance operator()(const Tolerance& t) const { return {t.relative, factor > 0 ? t.absolute / factor : 0}; }
+};
+
+Rgb magnitude(const Rgb& c) { return {std::abs(c.x), std::abs(c.y), std::abs(c.z)}; }
+
+struct Setting {
+  const Emitter& emitter;
+  const ShadingPoint& point;
+  const Tolerance& tolerance;
+  const LocalFrame& frame;
+  const Horizons& horizons;
+  Vec3d view;
+
+  bool above(const Vec3d& l) const { return l.z > 0 && (!horizons.distinct || dot(l, horizons.surface) > 0); }
+};
+
+template <class Kernel>
+Estimate one_direction(const Setting& s, const Kernel& kernel, const Vec3d& towards, const Rgb& illuminance) {
+  const Vec3d l = s.frame.vector(towards);
+  if (!s.above(l)) return {};
+  const Rgb value = kernel(l) * illuminance;
+  return {value, magnitude(value) * 1e-14, 1};
+}
+
+template <class Kernel>
+Estimate over_line(const Setting& s, const Kernel& kernel, const LineEmitter& line) {
+  auto view = line_view(s.frame.point(line.a), s.frame.point(line.b));
+  if (!view) return {};
+  clip(*view, {0, 0, 1});
+  if (s.horizons.distinct) clip(*view, s.horizons.surface);
+  if (!(view->end > view->begin)) return {};
+  const Rgb factor = line.intensity * view->scale;
+  const Vec3d mirror{-s.view.x, -s.view.y, s.view.z};
+  const auto integrand = [&](double psi) {
+    const Vec3d l = view->at(psi);
+    if (!(l.z > 0)) return Rgb{};
+    const double cosine = std::cos(psi);
+    return kernel(l) * (cosine * window_at(s.emitter.window, view->height / cosine));
+  };
+  const Arc arc{{}, view->foot, view->axis, view->begin, view->end, true};
+  const Nearest peak = nearest_to(arc, mirror);
+  const double alpha = kernel.facts().alpha;
+  const double width = alpha > 0 ? std::max(peak.distance, 2 * alpha * std::max(s.view.z, 1e-6)) : 1;
+  Estimate estimate = integrate_peaked(integrand, view->begin, view->end, peak.s, width, Scaled(factor)(s.tolerance));
+  estimate.value = estimate.value * factor;
+  estimate.error = estimate.error * factor;
+  return estimate;
+}
+
+template <class Kernel>
+Estimate over_outlines(const Setting& s, const Kernel& kernel) {
+  const double alpha = kernel.facts().alpha;
+  std::vector<Fan> fans;
+  each_outline(s.emitter, s.frame, [&](const Contour& outline, std::size_t index) {
+    if (outline.empty()) return;
+    Fan fan;
+    fan.contour = clipped(outline, s.horizons);
+    if (fan.contour.empty()) return;
+    fan.index = index;
+    if (alpha > 0) {
+      centre_at_lobe(fan, s.view, alpha);
+    } else {
+      centre_anywhere(fan);
+    }
+    fans.push_back(std::move(fan));
+  });
+  if (fans.empty()) return {};
+  Rgb radiance = s.emitter.radiance;
+  if (const auto* sun = std::get_if<DistantEmitter>(&s.emitter.shape)) {
+    const double sine = std::sin(sun->radius_rad);
+    radiance = sun->illuminance / (pi * sine * sine);
+  }
+  const Tolerance tolerance = Scaled(radiance)(s.tolerance);
+  Estimate estimate;
+  if (is_modulated(s.emitter)) {
+    const auto integrand = [&](const Vec3d& l, std::size_t index) {
+      if (!(l.z > 0)) return Rgb{};
+      return kernel(l) * modulation_along(s.emitter, index, s.point.position, s.frame.to_world(l));
+    };
+    estimate = FanIntegrator(integrand, tolerance).integrate(fans);
+  } else {
+    const auto integrand = [&](const Vec3d& l, std::size_t) { return l.z > 0 ? kernel(l) : Rgb{}; };
+    estimate = FanIntegrator(integrand, tolerance).integrate(fans);
+  }
+  estimate.value = estimate.value * radiance;
+  estimate.error = estimate.error * radiance;
+  return estimate;
+}
+
+template <class Kernel>
+Estimate evaluate(const Setting& s, const Kernel& kernel) {
+  if (const auto* punctual = std::get_if<PunctualEmitter>(&s.emitter.shape)) {
+    const auto incident = incident_from(*punctual, s.emitter.window, s.point.position);
+    return incident ? one_direction(s, kernel, incident->towards, incident->illuminance) : Estimate{};
+  }
+  if (const auto* distant = std::get_if<DistantEmitter>(&s.emitter.shape); distant != nullptr && !(distant->radius_rad > 0)) {
+    return one_direction(s, kernel, distant->towards, distant->illuminance);
+  }
+  if (const auto* line = std::get_if<LineEmitter>(&s.emitter.shape)) return over_line(s, kernel, *line);
+  if (const auto* environment = std::get_if<EnvironmentEmitter>(&s.emitter.shape); environment != nullptr && environment->map) {
+    return environment_reference(s.emitter, *environment, s.point, s.tolerance);
+  }
+  return over_outlines(s, kernel);
+}
+
+}  // namespace
+
+Estimate reference(const Emitter& emitter, const ShadingPoint& point, const Tolerance& tolerance) {
+  const LocalFrame frame(point.position, point.normal);
+  const Horizons horizons = horizons_of(frame, point.normal, point.surface_normal);
+  const Vec3d view = frame.vector(point.view);
+  if (!(view.z > 0)) return {};
+  if (const auto* lambert = std::get_if<Lambert>(&point.brdf)) {
+    if (const auto lux = closed_illuminance(emitter, point.position, frame, horizons)) {
+      const Rgb value = lambert->base_colour * *lux / pi;
+      return {value, magnitude(value) * 1e-12, 0};
+    }
+  }
+  const Setting setting{emitter, point, tolerance, frame, horizons, view};
+  return with_kernel(point.brdf, view, [&](const auto& kernel) { return evaluate(setting, kernel); });
+}
+
+}  // namespace etendue::eval
