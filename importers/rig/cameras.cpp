@@ -68,7 +68,7 @@ void read_camera(Reader& reader, JsonValue value) {
   const Vec3d position = read_position(fields.require("position"), d).value_or(Vec3d{});
   read_orientation(reader, fields, camera, position);
   camera.ev100 = read_exposure(reader, fields.find("exposure"));
-  camera.aspect = read_number(fields.find("aspect"), 1e-6, unlimited, d).value_or(0);
+  camera.aspect = read_number(fields.find("aspect"), std::numeric_limits<double>::min(), unlimited, d).value_or(0);
   fields.finish();
   reader.scene.cameras.push_back(std::move(camera));
 }

@@ -40,6 +40,11 @@ bool brings_its_own(const Shape& shape) {
   return is<PhotometricShape>(shape) || (environment && environment->image);
 }
 
+bool carries_texture(const Scene& scene, const Shape& shape) {
+  if (const auto* mesh = std::get_if<MeshShape>(&shape)) return mesh->mesh < scene.meshes.size() && !scene.meshes[mesh->mesh].uvs.empty();
+  return is<RectShape>(shape) || is<DiskShape>(shape) || is<PolygonShape>(shape);
+}
+
 LightColour read_colour(Reader& reader, JsonValue value) {
   if (!value) return RgbColour{};
   Diagnostics& d = reader.diagnostics;
@@ -137,7 +142,8 @@ void read_light(Reader& reader, JsonValue value) {
   const JsonValue material = fields.find("surface_material");
   if (has(reader.options.need, Need::materials))
     light.surface_material = read_reference(reader, material, reader.material_names, "material");
-  if (material && shape && !is<MeshShape>(*shape)) warn(d, material, "KEY_WITHOUT_EFFECT", "only the surface of a mesh light reflects");
+  if (material && shape && !is<MeshShape>(*shape))
+    fail(d, material, "VALUE_UNSUITABLE", "expected a mesh light: only its surface reflects");
   light.transform = read_transform(fields, false, d);
   light.source = value.pointer();
   fields.finish();
@@ -177,7 +183,11 @@ Emission read_emission(Reader& reader, JsonValue value, const Shape& shape) {
   }
   emission.efficacy_lm_W = read_quantity(efficacy, Dimension::efficacy, Bound::positive, d);
   emission.distance_m = read_length(fields.find("distance"), Bound::positive, d);
-  emission.texture = read_texture(reader, fields.find("texture"));
+  const JsonValue texture = fields.find("texture");
+  emission.texture = read_texture(reader, texture);
+  if (emission.texture && !carries_texture(reader.scene, shape)) {
+    fail(d, texture, "VALUE_UNSUITABLE", "expected a texture on a rect, disk or polygon, or on a mesh with uvs");
+  }
   fields.finish();
   return emission;
 }

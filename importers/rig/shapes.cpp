@@ -10,8 +10,8 @@ namespace {
 
 double length_of(Reader& reader, JsonValue value) { return read_length(value, Bound::positive, reader.diagnostics).value_or(1); }
 
-// An angle within [min, max) radians (or ]min, max[ for `above`), told in degrees.
-enum class Closed { left, none, both };
+// An angle between 0 and `max` radians, with both ends or without; told in degrees.
+enum class Closed { none, both };
 std::optional<double> read_angle(Reader& reader, JsonValue value, double max, Closed closed) {
   const std::optional<double> angle = read_quantity(value, Dimension::angle, Bound::any, reader.diagnostics);
   if (!angle) return {};
@@ -122,7 +122,7 @@ Shape read_known_shape(Reader& reader, Fields& fields, std::string_view type) {
   Diagnostics& d = reader.diagnostics;
   if (type == "spot") return read_spot(reader, fields);
   if (type == "frustum") return read_frustum(reader, fields);
-  if (type == "distant") return DistantShape{read_angle(reader, fields.find("angular_diameter"), pi, Closed::left).value_or(0)};
+  if (type == "distant") return DistantShape{read_angle(reader, fields.find("angular_diameter"), pi, Closed::both).value_or(0)};
   if (type == "sphere") return SphereShape{length_of(reader, fields.require("radius"))};
   if (type == "disk") return DiskShape{length_of(reader, fields.require("radius"))};
   if (type == "rect") {

@@ -142,13 +142,16 @@ Geometry read_geometry(Reader& reader, JsonValue value) {
   return geometry;
 }
 
-// Equal lengths and right angles of the axes, within rounding.
+// Equal lengths and right angles of the axes, within rounding: the sphere stays one.
 bool is_similarity(const Transform& t) {
-  constexpr double tolerance = 1e-9;
-  const double x = length(t.columns[0]), y = length(t.columns[1]), z = length(t.columns[2]);
-  const double skew = std::max(
-      {std::abs(dot(t.columns[0], t.columns[1])), std::abs(dot(t.columns[1], t.columns[2])), std::abs(dot(t.columns[2], t.columns[0]))});
-  return std::abs(y - x) <= tolerance * x && std::abs(z - x) <= tolerance * x && skew <= tolerance * x * x;
+  constexpr double tolerance = 1e-6;
+  const double size = dot(t.columns[0], t.columns[0]);
+  double off = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    off = std::max(off, std::abs(dot(t.columns[i], t.columns[i]) - size));
+    off = std::max(off, std::abs(dot(t.columns[i], t.columns[(i + 1) % 3])));
+  }
+  return size > 0 && off <= tolerance * size;
 }
 
 void read_object(Reader& reader, JsonValue value) {
