@@ -51,6 +51,7 @@ struct Comparison {
   double pixel_excess_rel = 0;                  // rms of what the pixels differ by beyond the noise, relative; 0 where there is none
   double pixel_excess_z = 0;                    // its significance
   double threshold_z = 0;                       // what a z must exceed for the family-wise false-alarm rate
+  double max_difference = 0;                    // the options', for who reads the result
   int seeds = 0;
 };
 

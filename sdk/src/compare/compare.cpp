@@ -172,6 +172,7 @@ Result<Comparison> compare(const Picture& ours, const Picture& reference, const 
 
   Comparison result;
   result.seeds = e.seeds;
+  result.max_difference = options.max_difference;
   const std::vector<Judged> judged = judge(divide(e, options.tiles, object_names), options);
   result.threshold_z = two_sided_quantile(sidak_rate(std::clamp(options.false_alarm_rate, 1e-12, .5), count_tests(judged)));
   const std::vector<bool> covered = covered_by_parent(judged, options.max_difference / 4);

@@ -11,8 +11,8 @@ namespace {
 // Mitsuba sums a pixel's samples in float32: relative error 8e-6 at 1024 samples, 2e-5 at 4096 (measured). Without this term a picture that
 // is free of noise (a directional light on a Lambert surface) would have sigma = 0.
 constexpr double float_accumulation = 3e-5;
-// A pixel that both pictures call black has no scale of its own; this part of the picture's mean stands in.
-constexpr double least_sigma = 1e-7;
+// Floor of the weights' sigma, as a part of the picture's mean: what is too dark to be seen must not outweigh what is seen.
+constexpr double least_weight_sigma = 1e-3;
 
 Error unsuitable(std::string text) { return Error{"PICTURE_UNSUITABLE", std::move(text), {}, {}, {}}; }
 
@@ -95,8 +95,8 @@ Result<Evidence> gather(const Picture& ours, const Picture& reference, const std
                  {}};
   }
 
-  const std::string layer_name = light.empty() ? "" : "light." + light;
-  const std::string variance_name = light.empty() ? "variance" : "light_variance." + light;
+  const std::string layer_name = light.empty() ? "" : "light." + layer_safe(light);
+  const std::string variance_name = light.empty() ? "variance" : "light_variance." + layer_safe(light);
   const Layer* our_values = layer_of_size(ours, layer_name, 3);
   const Layer* their_values = layer_of_size(reference, layer_name, 3);
   const Layer* their_variance = layer_of_size(reference, variance_name, 3);
@@ -129,12 +129,15 @@ Result<Evidence> gather(const Picture& ours, const Picture& reference, const std
 
   double total = 0;
   for (double value : e.reference) total += std::abs(value);
-  const double black = least_sigma * total / static_cast<double>(3 * count);
+  const double mean = total / static_cast<double>(3 * count);
   e.variance.resize(3 * count);
   for (std::size_t i = 0; i < 3 * count; ++i) {
     const double rounding = float_accumulation * e.reference[i];
-    const double ours_own = our_variance ? std::max(0.0F, our_variance->pixels[i]) : 0;
-    e.variance[i] = std::max(0.0F, their_variance->pixels[i]) + ours_own + rounding * rounding + black * black;
+    const double theirs = std::max(0.0F, their_variance->pixels[i]), own = our_variance ? std::max(0.0F, our_variance->pixels[i]) : 0;
+    // Where no sample of the reference saw light its variance is not zero but unknown. Were light of the picture's mean seen with the
+    // probability that gives ours, K trials would have the variance |ours| mean / K; a seed is at least one trial.
+    const bool unseen = e.reference[i] == 0 && theirs == 0;
+    e.variance[i] = theirs + own + rounding * rounding + (unseen ? std::abs(e.ours[i]) * mean / e.seeds : 0);
   }
 
   e.emitter.assign(count, false);
@@ -146,6 +149,7 @@ Result<Evidence> gather(const Picture& ours, const Picture& reference, const std
     if (object && object->pixels[p] > 0 && object->pixels[p] < 1e7F) e.object[p] = static_cast<int>(object->pixels[p]);
   }
   e.around = mean_around(e.variance, e.width, e.height, e.emitter);
+  for (double& value : e.around) value += least_weight_sigma * least_weight_sigma * mean * mean;
   return e;
 }
 

@@ -16,7 +16,7 @@ struct Evidence {
   int seeds = 0;
   std::vector<double> ours, reference;
   std::vector<double> variance;  // sigma^2 of ours - reference
-  std::vector<double> around;    // mean sigma^2 of the 24 pixels around: independent of the pixel's own noise
+  std::vector<double> around;    // mean sigma^2 of the 24 pixels around, and a floor: independent of the pixel's own noise
   std::vector<bool> emitter;     // per pixel: touches a visible emitter
   std::vector<int> object;       // per pixel: 1 + index, 0 for none
 

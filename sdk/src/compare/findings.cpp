@@ -19,6 +19,8 @@ constexpr std::size_t most_findings = 4;
 constexpr double least_explained = .3, as_good_as = .95;
 // Alone in its layer, a light has only its brightness or the camera to blame when those explain this part; else its own shape or direction.
 constexpr double mostly = .8;
+// A camera or a pixel grid is off by a pixel at most; a larger shift that does not explain all is a light that has moved.
+constexpr double likely_shift = 1.5, nearly_all = .9;
 // Three channels of a pixel share most of their noise: chi-squared over them counts for one.
 constexpr double shared_noise = 3;
 
@@ -55,6 +57,9 @@ std::optional<Candidate> best_candidate(const Values& base, const Evidence& e, s
     candidate.score = candidate.fit.chi2 / shared_noise + candidate.model.parameters * log_pixels;
     if (gain / shared_noise < threshold_z * threshold_z + 2 * candidate.model.parameters) continue;
     if (candidate.explained < least_explained || relative_change(base, candidate.fit.predicted, e) < least_change) continue;
+    const bool far =
+        candidate.model.kind == Model::Kind::shift && std::hypot(candidate.fit.theta[0], candidate.fit.theta[1]) > likely_shift;
+    if (far && candidate.explained < nearly_all) continue;
     const bool simpler = best && candidate.model.parameters < best->model.parameters && candidate.explained >= as_good_as * best->explained;
     const bool needless = best && candidate.model.parameters >= best->model.parameters &&
                           best->explained >= as_good_as * candidate.explained && candidate.model.parameters > best->model.parameters;

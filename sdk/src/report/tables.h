@@ -1,0 +1,17 @@
+// The parts of the page below the pictures, as HTML.
+#pragma once
+
+#include "etendue/report.h"
+
+#include <string>
+
+namespace etendue::report_detail {
+
+std::string verdict_section(const Comparison& comparison);
+std::string regions_section(const Comparison& comparison);
+std::string lights_section(const std::vector<LightSection>& lights);
+std::string losses_section(const std::vector<Loss>& losses);
+std::string diagnostics_section(const Diagnostics& diagnostics);
+std::string facts_section(const std::vector<std::pair<std::string, std::string>>& facts, const Comparison& comparison);
+
+}  // namespace etendue::report_detail
