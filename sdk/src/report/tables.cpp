@@ -45,7 +45,9 @@ std::string whisker(const RegionDifference& r, double asked, double reach) {
       at(-asked), at(asked) - at(-asked), low, high, at(r.difference));
 }
 
-std::string chi2_text(const Comparison& c) { return fmt::format(c.chi2_per_pixel < 100 ? "{:.3f}" : "{:.2g}", c.chi2_per_pixel); }
+std::string chi2_text(const Comparison& c) {
+  return c.chi2_per_pixel < 100 ? fmt::format("{:.3f}", c.chi2_per_pixel) : fmt::format("{:.2g}", c.chi2_per_pixel);
+}
 
 const char* colour_of(char channel) { return channel == 'R' ? "red" : channel == 'G' ? "green" : "blue"; }
 
