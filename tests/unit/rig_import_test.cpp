@@ -470,6 +470,21 @@ TEST(RigImport, SniffsTheKey) {
   EXPECT_EQ(sniff(""), 0);
 }
 
+// Every whole rig in the documentation is one.
+TEST(RigImport, ReadsTheDocumentation) {
+  std::ifstream stream(std::filesystem::path(ETENDUE_SOURCE_DIR) / "sdk" / "docs" / "rig.md");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  constexpr std::string_view opening = "```json\n", closing = "```";
+  int count = 0;
+  for (std::size_t at = text.find(opening); at != std::string::npos; at = text.find(opening, at + 1), ++count) {
+    const std::size_t begin = at + opening.size();
+    const Imported imported = read(std::string_view(text).substr(begin, text.find(closing, begin) - begin));
+    EXPECT_TRUE(imported.diagnostics.all().empty()) << told(imported.diagnostics);
+    EXPECT_TRUE(validate(imported.scene).all().empty()) << told(validate(imported.scene));
+  }
+  EXPECT_EQ(count, 2);
+}
+
 // A folder of its own for each test, removed afterwards.
 class RigImportFiles : public testing::Test {
  protected:

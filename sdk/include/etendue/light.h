@@ -54,7 +54,9 @@ struct PhotometricShape {
   std::string file;  // .ies or .ldt
 };
 struct EnvironmentShape {
-  std::optional<std::uint32_t> image;  // index into Scene::images, latitude-longitude; none: constant
+  // Index into Scene::images; none: constant. Latitude-longitude as in OpenEXR and Mitsuba: the direction (x, y, z) in the light's frame is
+  // at u = 1/2 - atan2(x, z) / (2 pi), v = acos(y) / pi.
+  std::optional<std::uint32_t> image;
 };
 using Shape = std::variant<PointShape, SpotShape, FrustumShape, DistantShape, SphereShape, DiskShape, RectShape, PolygonShape, TubeShape,
                            LineShape, MeshShape, PhotometricShape, EnvironmentShape>;
@@ -67,7 +69,10 @@ struct Emission {
   bool radiant = false;  // value is the radiometric twin: efficacy is then required
   std::optional<double> efficacy_lm_W;
   std::optional<double> distance_m;  // for `illuminance` of anything but a distant light
-  std::optional<Texture> texture;    // beside it; see sdk/docs/rig.md for its orientation
+  // Multiplies the luminance of flat and mesh lights; the value is that of a white texture. v = 0 is the top row as seen from the side that
+  // is emitted towards, +Y up: the viewer looks along +Z, its right is Z x Y = -X. Rect: u = 1/2 - x/width, v = 1/2 - y/height; disk: the
+  // same with the diameter; polygon: its bounding rectangle; mesh: its uvs.
+  std::optional<Texture> texture;
 };
 
 struct RgbColour {
