@@ -35,8 +35,8 @@ std::string_view si_unit_of(Dimension dimension);  // "lm"
 
 template <Dimension D>
 struct Quantity {
-  double si = 0;  // in the SI unit of D
-  friend constexpr auto operator<=>(const Quantity&, const Quantity&) = default;
+  double si = 0;                                                                  // in the SI unit of D
+  friend constexpr auto operator<=>(const Quantity&, const Quantity&) = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 is wrong
 };
 using Flux = Quantity<Dimension::luminous_flux>;
 using Intensity = Quantity<Dimension::luminous_intensity>;
