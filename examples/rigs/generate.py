@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 """Writes the example rigs (.rig.json) and their geometry (.glb) beside this file.
 
-    python3 generate.py            writes all of them
-    python3 generate.py --check    writes nothing; fails if a file differs from what would be written
+python3 generate.py            writes all of them
+python3 generate.py --check    writes nothing; fails if a file differs from what would be written
 """
 
 import argparse
 import pathlib
 import sys
 
-sys.dont_write_bytecode = True
+sys.dont_write_bytecode = True  # before the imports below, so that they leave nothing in the source tree
 
-from scenes import kitchen, street, studio, table  # noqa: E402  (after the line that keeps the source tree clean)
+from scenes import kitchen, street, studio, table
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCENES = {"kitchen": kitchen.build, "studio": studio.build, "street": street.build, "table": table.build}

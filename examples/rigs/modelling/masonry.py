@@ -62,6 +62,7 @@ def brick_colour(size=128):
 
 def brick_normal(size=128):
     """Joints 8 mm deep, rough faces, each brick a little tilted."""
+
     def depth(u, v):
         row, column, face = _brick(u % 1.0, v % 1.0)
         tilt = 0.002 * (hashed(column, row, 78) - 0.5)

@@ -4,22 +4,29 @@ import json
 import math
 import struct
 
+from modelling.mesh import Mesh
+
 
 class Model:
     def __init__(self, name):
         self.name = name
         self.materials = {}
-        self.parts = {}      # name -> {material: Mesh}
+        self.parts = {}  # name -> {material: Mesh}
         self.placements = {}  # name -> [(translation, degrees about y)]
 
     def material(self, name, colour, roughness, metallic=0.0, texture=None, normal=None, normal_scale=1.0):
         """Colours are linear Rec.709; a texture is an sRGB PNG that multiplies the colour, a normal map a linear one."""
-        self.materials[name] = dict(colour=colour, roughness=roughness, metallic=metallic, texture=texture, normal=normal,
-                                    normal_scale=normal_scale)
+        self.materials[name] = {
+            "colour": colour,
+            "roughness": roughness,
+            "metallic": metallic,
+            "texture": texture,
+            "normal": normal,
+            "normal_scale": normal_scale,
+        }
         return name
 
     def add(self, part, material, *meshes):
-        from modelling.mesh import Mesh
         if material not in self.materials:
             raise KeyError(f"{self.name}: no material {material}")
         self.parts.setdefault(part, {}).setdefault(material, Mesh()).add(*meshes)
@@ -29,8 +36,9 @@ class Model:
         self.placements.setdefault(part, []).append(((x, y, z), degrees))
 
     def triangles(self):
-        return sum(len(mesh.indices) // 3 * max(1, len(self.placements.get(part, [])))
-                   for part, meshes in self.parts.items() for mesh in meshes.values())
+        return sum(
+            len(mesh.indices) // 3 * max(1, len(self.placements.get(part, []))) for part, meshes in self.parts.items() for mesh in meshes.values()
+        )
 
     def glb(self):
         return _Writer(self).bytes()
@@ -46,8 +54,15 @@ class _Writer:
         self.model = model
         self.blob = bytearray()
         self.document = {
-            "asset": {"version": "2.0", "generator": "examples/rigs/generate.py"}, "scene": 0, "scenes": [{"nodes": []}],
-            "nodes": [], "meshes": [], "materials": [], "accessors": [], "bufferViews": []}
+            "asset": {"version": "2.0", "generator": "examples/rigs/generate.py"},
+            "scene": 0,
+            "scenes": [{"nodes": []}],
+            "nodes": [],
+            "meshes": [],
+            "materials": [],
+            "accessors": [],
+            "bufferViews": [],
+        }
         self.images = {}
 
     def view(self, data, **more):
@@ -93,8 +108,10 @@ class _Writer:
         for name, mesh in meshes.items():
             material = self.model.materials[name]
             rows, indices = _welded(mesh, bool(material["texture"] or material["normal"]))
-            attributes = {"POSITION": self.floats([row[0:3] for row in rows], "VEC3", True),
-                          "NORMAL": self.floats([row[3:6] for row in rows], "VEC3")}
+            attributes = {
+                "POSITION": self.floats([row[0:3] for row in rows], "VEC3", True),
+                "NORMAL": self.floats([row[3:6] for row in rows], "VEC3"),
+            }
             if len(rows[0]) > 6:
                 attributes["TEXCOORD_0"] = self.floats([row[6:8] for row in rows], "VEC2")
             wide = len(rows) > 65535
@@ -123,8 +140,8 @@ class _Writer:
         self.document["buffers"] = [{"byteLength": len(self.blob)}]
         text = json.dumps(self.document, separators=(",", ":")).encode()
         text += b" " * (-len(text) % 4)
-        chunks = struct.pack("<II", len(text), 0x4e4f534a) + text + struct.pack("<II", len(self.blob), 0x004e4942) + bytes(self.blob)
-        return struct.pack("<III", 0x46546c67, 2, 12 + len(chunks)) + chunks
+        chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(self.blob), 0x004E4942) + bytes(self.blob)
+        return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
 
 
 def _welded(mesh, textured):

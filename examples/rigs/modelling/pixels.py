@@ -15,7 +15,7 @@ def png(width, height, pixel):
             rows += bytes(min(255, max(0, math.floor(c * 255 + 0.5))) for c in pixel((x + 0.5) / width, (y + 0.5) / height))
     stream = bytearray(b"\x78\x01")
     for start in range(0, len(rows), 65535):
-        part = rows[start:start + 65535]
+        part = rows[start : start + 65535]
         stream += struct.pack("<BHH", start + 65535 >= len(rows), len(part), 65535 - len(part)) + part
     stream += struct.pack(">I", zlib.adler32(rows))
 
@@ -42,9 +42,9 @@ def normal_png(width, height, depth, size_u, size_v):
 
 def hashed(x, y, seed=0):
     """A fixed pseudo-random number in 0..1 for a lattice point (integer mixing after Wang and Jenkins)."""
-    n = (x * 374761393 + y * 668265263 + seed * 2147483647) & 0xffffffff
-    n = ((n ^ (n >> 13)) * 1274126177) & 0xffffffff
-    return ((n ^ (n >> 16)) & 0xffff) / 65535.0
+    n = (x * 374761393 + y * 668265263 + seed * 2147483647) & 0xFFFFFFFF
+    n = ((n ^ (n >> 13)) * 1274126177) & 0xFFFFFFFF
+    return ((n ^ (n >> 16)) & 0xFFFF) / 65535.0
 
 
 def noise(u, v, cells_u, cells_v, seed=0):

@@ -60,8 +60,12 @@ def spline(points, steps=6):
         p0, p1, p2, p3 = points[max(i - 1, 0)], points[i], points[i + 1], points[min(i + 2, len(points) - 1)]
         for k in range(steps):
             t = k / steps
-            out.append(tuple(0.5 * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * t * t + (3 * b - a - 3 * c + d) * t**3)
-                             for a, b, c, d in zip(p0, p1, p2, p3)))
+            out.append(
+                tuple(
+                    0.5 * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * t * t + (3 * b - a - 3 * c + d) * t**3)
+                    for a, b, c, d in zip(p0, p1, p2, p3)
+                )
+            )
     return out + [tuple(points[-1])]
 
 
@@ -109,8 +113,13 @@ def revolve(profile, segments=32, crease=38.0, sides=None):
                 turns = [(k, k)] if not sides else [(k, k - 0.5), (k, k + 0.5)]
                 for place, facing in turns:
                     a, f = 2 * math.pi * place / count, 2 * math.pi * facing / count
-                    ring.append(mesh.vertex((radius * math.sin(a), height, radius * math.cos(a)),
-                                            (nr * math.sin(f), ny, nr * math.cos(f)), (k / count, 1.0 - along / total)))
+                    ring.append(
+                        mesh.vertex(
+                            (radius * math.sin(a), height, radius * math.cos(a)),
+                            (nr * math.sin(f), ny, nr * math.cos(f)),
+                            (k / count, 1.0 - along / total),
+                        )
+                    )
             rings.append(ring)
         pairs = range(count) if not sides else range(1, 2 * count, 2)
         for k in pairs:
@@ -122,8 +131,9 @@ def revolve(profile, segments=32, crease=38.0, sides=None):
 def cylinder(radius, height, segments=24, bevel=0.001):
     """Standing on y = 0, with bevelled rims."""
     bevel = min(bevel, 0.45 * height, 0.45 * radius)
-    return revolve([(0, 0), (radius - bevel, 0), (radius, bevel), (radius, height - bevel), (radius - bevel, height), (0, height)],
-                   segments, crease=50.0)
+    return revolve(
+        [(0, 0), (radius - bevel, 0), (radius, bevel), (radius, height - bevel), (radius - bevel, height), (0, height)], segments, crease=50.0
+    )
 
 
 def ball(radius, segments=24, rings=12):
@@ -174,6 +184,7 @@ def rounded(width, height, radius, steps=4):
 
 def _ears(outline):
     """Triangles of a simple counter-clockwise polygon, by cutting ears."""
+
     def area(a, b, c):
         return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
@@ -184,8 +195,11 @@ def _ears(outline):
             a, b, c = outline[h], outline[i], outline[j]
             if area(a, b, c) <= 1e-14:
                 continue
-            if any(area(a, b, p) >= 0 and area(b, c, p) >= 0 and area(c, a, p) >= 0
-                   for p in (outline[m] for m in left if m not in (h, i, j)) if p not in (a, b, c)):
+            if any(
+                area(a, b, p) >= 0 and area(b, c, p) >= 0 and area(c, a, p) >= 0
+                for p in (outline[m] for m in left if m not in (h, i, j))
+                if p not in (a, b, c)
+            ):
                 continue
             out.append((h, i, j))
             left.pop(k)

@@ -6,10 +6,10 @@ from modelling.model import Model
 from modelling.pixels import clouds, hashed, mix, noise, png, smooth
 from modelling.props import bottle, bowl, cup, handle, jar, jar_lid, leafy, orange, plate, stool, window_frame
 from modelling.rig import DOWN, TOWARDS_VIEWER, rig_file
-from modelling.shapes import arc, ball, block, cylinder, extrude, revolve, rounded, spline, tube
+from modelling.shapes import arc, block, cylinder, extrude, revolve, rounded, spline, tube
 
 LEFT, RIGHT, FRONT, CEILING = -2.1, 2.1, 4.2, 2.5  # the room; its back wall is z = 0
-DEPTH = 0.60          # of the worktop; doors stand at .56
+DEPTH = 0.60  # of the worktop; doors stand at .56
 PLINTH, CARCASS, TOP = 0.10, 0.86, 0.90
 DOOR = 0.56
 UPPER_LOW, UPPER_HIGH, UPPER_DEPTH = 1.45, 2.17, 0.33
@@ -62,6 +62,7 @@ def materials(model):
 
 def planks():
     """Four oak boards side by side with grain, a butt joint in each and dark gaps; the tile is .6 m x 1.2 m."""
+
     def pixel(u, v):
         board = min(3, int(u * 4))
         across = u * 4 - board
@@ -79,6 +80,7 @@ def planks():
 
 def butcher_block():
     """Oak staves 45 mm wide of uneven length, glued; the tile is .72 m x .72 m, the grain runs along u."""
+
     def pixel(u, v):
         row = int(v * 16)
         piece = int(u * 3 + hashed(row, 3, 5)) % 3
@@ -94,23 +96,39 @@ def room(model):
     model.add("floor", "floor oak", block(LEFT, RIGHT, -0.05, 0, 0, FRONT, 0).textured_from("y", 0.6, 1.2))
     model.add("ceiling", "ceiling", block(LEFT, RIGHT, CEILING, CEILING + 0.05, -0.3, FRONT, 0))
     x0, x1, y0, y1 = WINDOW
-    walls = [block(LEFT - 0.1, LEFT, -0.05, CEILING, -0.3, FRONT, 0), block(RIGHT, RIGHT + 0.1, -0.05, CEILING, -0.3, FRONT, 0),
-             block(LEFT, x0, -0.05, CEILING, -0.3, 0, 0), block(x1, RIGHT, -0.05, CEILING, -0.3, 0, 0),
-             block(x0, x1, -0.05, y0, -0.3, 0, 0), block(x0, x1, y1, CEILING, -0.3, 0, 0)]
+    walls = [
+        block(LEFT - 0.1, LEFT, -0.05, CEILING, -0.3, FRONT, 0),
+        block(RIGHT, RIGHT + 0.1, -0.05, CEILING, -0.3, FRONT, 0),
+        block(LEFT, x0, -0.05, CEILING, -0.3, 0, 0),
+        block(x1, RIGHT, -0.05, CEILING, -0.3, 0, 0),
+        block(x0, x1, -0.05, y0, -0.3, 0, 0),
+        block(x0, x1, y1, CEILING, -0.3, 0, 0),
+    ]
     model.add("walls", "plaster", *walls)
-    model.add("cornice", "ceiling", block(LEFT, RIGHT, CEILING - 0.06, CEILING, 0, 0.03, 0.012),
-              block(LEFT, LEFT + 0.03, CEILING - 0.06, CEILING, 0, FRONT, 0.012))
-    model.add("window", "frame white", window_frame(x1 - x0, y1 - y0, 2, 2).at(0, y0, -0.14),
-              block(x0 - 0.04, x1 + 0.04, y0 - 0.03, y0, -0.16, 0.10, 0.006))
+    model.add(
+        "cornice",
+        "ceiling",
+        block(LEFT, RIGHT, CEILING - 0.06, CEILING, 0, 0.03, 0.012),
+        block(LEFT, LEFT + 0.03, CEILING - 0.06, CEILING, 0, FRONT, 0.012),
+    )
+    model.add(
+        "window", "frame white", window_frame(x1 - x0, y1 - y0, 2, 2).at(0, y0, -0.14), block(x0 - 0.04, x1 + 0.04, y0 - 0.03, y0, -0.16, 0.10, 0.006)
+    )
 
 
 def front(model, x0, x1, y0, y1, pull="top", z=DOOR, name="front green", part="fronts"):
     """A shaker door or drawer front with 3 mm gaps: four rails around a sunk panel, and its handle."""
     x0, x1, y0, y1 = x0 + 0.0015, x1 - 0.0015, y0 + 0.0015, y1 - 0.0015
     rail = min(0.065, 0.3 * (y1 - y0))
-    model.add(part, name, block(x0, x1, y0, y0 + rail, z, z + 0.020), block(x0, x1, y1 - rail, y1, z, z + 0.020),
-              block(x0, x0 + rail, y0 + rail, y1 - rail, z, z + 0.020), block(x1 - rail, x1, y0 + rail, y1 - rail, z, z + 0.020),
-              block(x0 + rail - 0.002, x1 - rail + 0.002, y0 + rail - 0.002, y1 - rail + 0.002, z, z + 0.009, 0.001))
+    model.add(
+        part,
+        name,
+        block(x0, x1, y0, y0 + rail, z, z + 0.020),
+        block(x0, x1, y1 - rail, y1, z, z + 0.020),
+        block(x0, x0 + rail, y0 + rail, y1 - rail, z, z + 0.020),
+        block(x1 - rail, x1, y0 + rail, y1 - rail, z, z + 0.020),
+        block(x0 + rail - 0.002, x1 - rail + 0.002, y0 + rail - 0.002, y1 - rail + 0.002, z, z + 0.009, 0.001),
+    )
     middle = (x0 + x1) / 2
     if pull == "top":
         model.add("handles", "brass", handle(min(0.20, 0.6 * (x1 - x0))).at(middle, y1 - rail / 2, z + 0.020))
@@ -135,14 +153,22 @@ def base_units(model):
     front(model, 0.45, 1.05, PLINTH, CARCASS, "top")
     front(model, 1.05, 1.5, PLINTH, CARCASS, "left")
     x0, x1, z0, z1 = -0.30, 0.30, 0.13, 0.50  # the sink's cut-out
-    model.add("worktop", "worktop stone", block(LEFT, x0, CARCASS, TOP, 0, DEPTH + 0.01, 0.004), block(x1, 1.5, CARCASS, TOP, 0, DEPTH + 0.01, 0.004),
-              block(x0, x1, CARCASS, TOP, 0, z0, 0.004), block(x0, x1, CARCASS, TOP, z1, DEPTH + 0.01, 0.004))
+    model.add(
+        "worktop",
+        "worktop stone",
+        block(LEFT, x0, CARCASS, TOP, 0, DEPTH + 0.01, 0.004),
+        block(x1, 1.5, CARCASS, TOP, 0, DEPTH + 0.01, 0.004),
+        block(x0, x1, CARCASS, TOP, 0, z0, 0.004),
+        block(x0, x1, CARCASS, TOP, z1, DEPTH + 0.01, 0.004),
+    )
     tall_unit(model)
 
 
 def oven(model, x0, x1):
     z = DOOR
-    model.add("oven", "steel", block(x0 + 0.002, x1 - 0.002, 0.735, CARCASS - 0.002, z, z + 0.020), block(x0 + 0.002, x1 - 0.002, 0.26, 0.73, z, z + 0.016))
+    model.add(
+        "oven", "steel", block(x0 + 0.002, x1 - 0.002, 0.735, CARCASS - 0.002, z, z + 0.020), block(x0 + 0.002, x1 - 0.002, 0.26, 0.73, z, z + 0.016)
+    )
     model.add("oven", "black glass", block(x0 + 0.045, x1 - 0.045, 0.30, 0.665, z + 0.014, z + 0.020))
     model.add("handles", "steel", handle(0.48, 0.009, 0.045).at((x0 + x1) / 2, 0.70, z + 0.016))
     knob = merged(cylinder(0.021, 0.022, 24, 0.003), block(-0.003, 0.003, 0.02, 0.026, -0.018, 0.018, 0.001)).turned("x", 90)
@@ -158,19 +184,41 @@ def oven(model, x0, x1):
 def tall_unit(model):
     """A built-in fridge and freezer, to the right of the worktop."""
     model.add("carcass", "carcass", block(1.5, RIGHT, PLINTH, UPPER_HIGH, 0, DOOR - 0.002, 0), block(1.5, RIGHT, 0, PLINTH, 0, 0.5, 0))
-    model.add("fronts", "front green", block(1.482, 1.5, 0, UPPER_HIGH, 0, DOOR + 0.02, 0.002), block(1.482, RIGHT, UPPER_HIGH, UPPER_HIGH + 0.02, 0, DOOR + 0.02, 0.002))
+    model.add(
+        "fronts",
+        "front green",
+        block(1.482, 1.5, 0, UPPER_HIGH, 0, DOOR + 0.02, 0.002),
+        block(1.482, RIGHT, UPPER_HIGH, UPPER_HIGH + 0.02, 0, DOOR + 0.02, 0.002),
+    )
     front(model, 1.5, RIGHT, PLINTH, 0.78, "left")
     front(model, 1.5, RIGHT, 0.78, UPPER_HIGH, "left")
 
 
 def sink_and_tap(model):
     x0, x1, z0, z1, low = -0.30, 0.30, 0.13, 0.50, 0.71
-    model.add("sink", "china", block(x0 - 0.012, x0, low - 0.01, TOP + 0.004, z0 - 0.012, z1 + 0.012, 0.003),
-              block(x1, x1 + 0.012, low - 0.01, TOP + 0.004, z0 - 0.012, z1 + 0.012, 0.003), block(x0, x1, low - 0.01, TOP + 0.004, z0 - 0.012, z0, 0.003),
-              block(x0, x1, low - 0.01, TOP + 0.004, z1, z1 + 0.012, 0.003), block(x0, x1, low - 0.01, low, z0, z1, 0))
-    neck = [(0, TOP, 0.075), (0, TOP + 0.20, 0.075)] + [(0, TOP + 0.26 + y, 0.165 - x) for x, y in arc((0, 0), 0.09, 0, 180, 12)] + [(0, TOP + 0.20, 0.255)]
-    model.add("tap", "brass", tube(neck, 0.011, 14), cylinder(0.024, 0.012).at(0, TOP, 0.075), cylinder(0.017, 0.07).at(0, TOP, 0.075),
-              tube([(0.015, TOP + 0.055, 0.075), (0.075, TOP + 0.085, 0.085)], [0.007, 0.005], 10), cylinder(0.0135, 0.03).at(0, TOP + 0.185, 0.255))
+    model.add(
+        "sink",
+        "china",
+        block(x0 - 0.012, x0, low - 0.01, TOP + 0.004, z0 - 0.012, z1 + 0.012, 0.003),
+        block(x1, x1 + 0.012, low - 0.01, TOP + 0.004, z0 - 0.012, z1 + 0.012, 0.003),
+        block(x0, x1, low - 0.01, TOP + 0.004, z0 - 0.012, z0, 0.003),
+        block(x0, x1, low - 0.01, TOP + 0.004, z1, z1 + 0.012, 0.003),
+        block(x0, x1, low - 0.01, low, z0, z1, 0),
+    )
+    neck = (
+        [(0, TOP, 0.075), (0, TOP + 0.20, 0.075)]
+        + [(0, TOP + 0.26 + y, 0.165 - x) for x, y in arc((0, 0), 0.09, 0, 180, 12)]
+        + [(0, TOP + 0.20, 0.255)]
+    )
+    model.add(
+        "tap",
+        "brass",
+        tube(neck, 0.011, 14),
+        cylinder(0.024, 0.012).at(0, TOP, 0.075),
+        cylinder(0.017, 0.07).at(0, TOP, 0.075),
+        tube([(0.015, TOP + 0.055, 0.075), (0.075, TOP + 0.085, 0.085)], [0.007, 0.005], 10),
+        cylinder(0.0135, 0.03).at(0, TOP + 0.185, 0.255),
+    )
 
 
 def upper_units(model):
@@ -208,8 +256,8 @@ def hood(model):
 
 def tiles(model):
     """Metro tiles, 150 x 75 mm in half bond with 3 mm joints, bevelled, on a bed of grout."""
-    x0, x1, y0, y1 = WINDOW
-    fields = [(LEFT, x0 - 0.04, TOP, 1.62), (x0 - 0.04, x1 + 0.04, TOP, y0 - 0.03), (x1 + 0.04, 1.482, TOP, UPPER_LOW)]
+    x0, x1, sill, _ = WINDOW
+    fields = [(LEFT, x0 - 0.04, TOP, 1.62), (x0 - 0.04, x1 + 0.04, TOP, sill - 0.03), (x1 + 0.04, 1.482, TOP, UPPER_LOW)]
     for fx0, fx1, fy0, fy1 in fields:
         model.add("grout", "grout", block(fx0, fx1, fy0, fy1, 0, 0.004, 0))
         for a, b, low, high in bonded(fx0, fx1, fy0, fy1, 0.153, 0.078, 0.003, start=LEFT):
@@ -247,7 +295,7 @@ def on_the_worktop(model):
     board = extrude(rounded(0.26, 0.40, 0.03), 0.018, 0.004)
     model.add("board", "board", board.turned("x", -14).at(-1.72, TOP + 0.20, 0.075))
     pot = revolve([(0, 0), (0.040, 0), (0.053, 0.075), (0.058, 0.075), (0.059, 0.098), (0.053, 0.098), (0.050, 0.082), (0, 0.080)], 32)
-    model.add("herbs", "terracotta", pot.at(0.43, TOP + 0.15 - 0.15, 0.16), pot.at(-0.44, 1.08, -0.02))
+    model.add("herbs", "terracotta", pot.at(0.43, TOP, 0.16), pot.at(-0.44, 1.08, -0.02))
     model.add("herbs", "leaf", leafy(8).at(0.43, TOP + 0.08, 0.16), leafy(8, 0.14, 9).at(-0.44, 1.16, -0.02))
     kettle(model)
 
@@ -256,10 +304,20 @@ def kettle(model):
     """On the hob: body, lid with knob, spout and a bail handle."""
     x, z, y = -1.34, 0.42, TOP + 0.0066
     body = spline([(0.095, 0.006), (0.105, 0.03), (0.092, 0.085), (0.055, 0.128), (0.040, 0.135)], 5)
-    profile = [(0, 0), (0.088, 0), *body, (0.036, 0.142), (0.010, 0.147), (0.007, 0.152), *[(r, h + 0.163) for r, h in arc((0, 0), 0.012, -50, 90, 4)]]
+    profile = [
+        (0, 0),
+        (0.088, 0),
+        *body,
+        (0.036, 0.142),
+        (0.010, 0.147),
+        (0.007, 0.152),
+        *[(r, h + 0.163) for r, h in arc((0, 0), 0.012, -50, 90, 4)],
+    ]
     bail = [(0.085 * c, 0.095 + 0.115 * s, 0) for c, s in arc((0, 0), 1.0, 8, 172, 16)]
     spout = spline([(0.085, 0.06, 0), (0.125, 0.085, 0), (0.140, 0.125, 0)], 5)
-    model.add("kettle", "steel", revolve(profile, 32).at(x, y, z), tube(spout, [0.022 - 0.001 * k for k in range(11)], 14).turned("y", -35).at(x, y, z))
+    model.add(
+        "kettle", "steel", revolve(profile, 32).at(x, y, z), tube(spout, [0.022 - 0.001 * k for k in range(11)], 14).turned("y", -35).at(x, y, z)
+    )
     model.add("kettle", "black metal", tube(bail, 0.007, 10).turned("y", -35).at(x, y, z))
 
 
@@ -269,22 +327,58 @@ def fittings(model):
     for x, z in DOWNLIGHTS:
         model.place("trim", x, CEILING, z)
     x, y, z = PENDANT
-    model.add("pendant fitting", "brass", tube([(x, y + 0.135, z), (x, CEILING - 0.02, z)], 0.004, 8), cylinder(0.05, 0.025).at(x, CEILING - 0.025, z),
-              revolve([(0.048, -0.010), (0.050, 0.0), (0.020, 0.045), (0.012, 0.055), (0, 0.055)], 32).at(x, y + 0.092, z))
+    model.add(
+        "pendant fitting",
+        "brass",
+        tube([(x, y + 0.135, z), (x, CEILING - 0.02, z)], 0.004, 8),
+        cylinder(0.05, 0.025).at(x, CEILING - 0.025, z),
+        revolve([(0.048, -0.010), (0.050, 0.0), (0.020, 0.045), (0.012, 0.055), (0, 0.055)], 32).at(x, y + 0.092, z),
+    )
     for x in (1.1395 - 0.148, 1.1395 + 0.148):
         model.add("tube fitting", "frame white", block(x - 0.012, x + 0.012, UPPER_LOW - 0.036, UPPER_LOW, 0.22, 0.26, 0.003))
 
 
 def rig():
     warm = {"temperature": "4000 K"}
-    lights = [{"name": f"downlight {k + 1}", "shape": {"type": "disk", "radius": "60 mm"}, "emission": {"flux": "730 lm"}, "colour": warm,
-               "translation": [x, CEILING - 0.004, z], "rotation": DOWN} for k, (x, z) in enumerate(DOWNLIGHTS)]
-    lights.append({"name": "under-cabinet tube", "shape": {"type": "tube", "length": "272 mm", "radius": "8 mm", "caps": "round"},
-                   "emission": {"flux": "430 lm"}, "colour": {"temperature": "4000 K"}, "translation": [1.1395, UPPER_LOW - 0.022, 0.24]})
-    lights.append({"name": "opal pendant", "shape": {"type": "sphere", "radius": "100 mm"}, "emission": {"flux": "1055 lm"},
-                   "colour": {"temperature": "2700 K"}, "translation": list(PENDANT)})
+    lights = [
+        {
+            "name": f"downlight {k + 1}",
+            "shape": {"type": "disk", "radius": "60 mm"},
+            "emission": {"flux": "730 lm"},
+            "colour": warm,
+            "translation": [x, CEILING - 0.004, z],
+            "rotation": DOWN,
+        }
+        for k, (x, z) in enumerate(DOWNLIGHTS)
+    ]
+    lights.append(
+        {
+            "name": "under-cabinet tube",
+            "shape": {"type": "tube", "length": "272 mm", "radius": "8 mm", "caps": "round"},
+            "emission": {"flux": "430 lm"},
+            "colour": {"temperature": "4000 K"},
+            "translation": [1.1395, UPPER_LOW - 0.022, 0.24],
+        }
+    )
+    lights.append(
+        {
+            "name": "opal pendant",
+            "shape": {"type": "sphere", "radius": "100 mm"},
+            "emission": {"flux": "900 lm"},
+            "colour": {"temperature": "2700 K"},
+            "translation": list(PENDANT),
+        }
+    )
     x0, x1, y0, y1 = WINDOW
-    lights.append({"name": "window at blue hour", "shape": {"type": "rect", "width": "1.5 m", "height": "1.3 m"}, "emission": {"luminance": "36 nit"},
-                   "colour": {"daylight": "15000 K"}, "translation": [(x0 + x1) / 2, (y0 + y1) / 2, -0.32], "rotation": TOWARDS_VIEWER})
-    camera = {"position": [0.62, 1.52, 4.05], "target": [-0.18, 1.17, 0.6], "vfov": "52 deg", "exposure": {"ev100": 5.2}}
+    lights.append(
+        {
+            "name": "window at blue hour",
+            "shape": {"type": "rect", "width": "1.5 m", "height": "1.3 m"},
+            "emission": {"luminance": "36 nit"},
+            "colour": {"daylight": "15000 K"},
+            "translation": [(x0 + x1) / 2, (y0 + y1) / 2, -0.32],
+            "rotation": TOWARDS_VIEWER,
+        }
+    )
+    camera = {"position": [0.62, 1.52, 4.05], "target": [-0.18, 1.17, 0.6], "vfov": "52 deg", "exposure": {"ev100": 5.0}}
     return rig_file(lights, camera, [{"gltf": "kitchen.glb"}])

@@ -12,7 +12,7 @@ from modelling.shapes import arc, ball, block, box, cylinder, extrude, revolve, 
 
 LEFT, RIGHT = -6.6, 4.3
 GROUND, FIRST, TOP = 3.45, 6.35, 8.75  # string course, sill band of the second floor, wall's top
-DOOR = (0.95, 2.15, 0.34, 3.02)        # with its fanlight
+DOOR = (0.95, 2.15, 0.34, 3.02)  # with its fanlight
 GROUND_WINDOWS = [(x - 0.55, x + 0.55, 0.95, 2.75) for x in (-4.9, -2.85, -0.75, 3.35)]
 FIRST_WINDOWS = [(x - 0.50, x + 0.50, 4.05, 5.90) for x in (-4.9, -2.85, -0.75, 1.55, 3.35)]
 SECOND_WINDOWS = [(x - 0.50, x + 0.50, 6.75, 8.00) for x in (-4.9, -2.85, -0.75, 1.55, 3.35)]
@@ -70,8 +70,13 @@ def walls(model):
         model.add("ashlar", "stone", block(a, b, low, high, 0.0, 0.075, 0.018, back=False))
     for a, b in ((LEFT, DOOR[0] - 0.14), (DOOR[1] + 0.14, RIGHT)):
         model.add("ashlar", "stone", block(a, b, 0.0, 0.48, 0.0, 0.12, 0.020))
-    model.add("far houses", "roof", block(6.5, 24, 0, 4.2, -16, -12, 0), block(8.2, 9.0, 4.2, 5.3, -15, -14, 0),
-              extrude([(5.8, 4.2), (24.5, 4.2), (24.5, 5.6), (8.0, 5.9)], 4.0).at(0, 0, -14))
+    model.add(
+        "far houses",
+        "roof",
+        block(6.5, 24, 0, 4.2, -16, -12, 0),
+        block(8.2, 9.0, 4.2, 5.3, -15, -14, 0),
+        extrude([(5.8, 4.2), (24.5, 4.2), (24.5, 5.6), (8.0, 5.9)], 4.0).at(0, 0, -14),
+    )
 
 
 def window(model, opening, index):
@@ -80,8 +85,12 @@ def window(model, opening, index):
     ground = y1 < GROUND
     face = 0.075 if ground else 0.0
     rows = 4 if not y0 > FIRST else 3
-    model.add("frames", "paint", window_frame(wide, y1 - y0, 3 if ground else 2, rows, 0.05, 0.024, 0.05).at(middle, y0, -0.14),
-              block(x0, x1, (y0 + y1) / 2 - 0.025, (y0 + y1) / 2 + 0.025, -0.16, -0.105, 0.004))
+    model.add(
+        "frames",
+        "paint",
+        window_frame(wide, y1 - y0, 3 if ground else 2, rows, 0.05, 0.024, 0.05).at(middle, y0, -0.14),
+        block(x0, x1, (y0 + y1) / 2 - 0.025, (y0 + y1) / 2 + 0.025, -0.16, -0.105, 0.004),
+    )
     if opening in LIT:
         for s in (-1, 1):
             drape(model, middle + s * (wide / 2 - 0.14), 0.28, y0, y1)
@@ -97,7 +106,12 @@ def window(model, opening, index):
         keystone = extrude([(-0.075, 0), (0.075, 0), (0.105, 0.24), (-0.105, 0.24)], 0.10, 0.01)
         model.add("surrounds", "stone", keystone.at(middle, y1 - 0.012, face + 0.03))
     if FIRST > y0 > GROUND:  # the principal floor has hoods on brackets
-        model.add("hoods", "stone", block(x0 - 0.22, x1 + 0.22, y1 + 0.24, y1 + 0.29, 0, 0.17, 0.010), block(x0 - 0.26, x1 + 0.26, y1 + 0.29, y1 + 0.34, 0, 0.22, 0.014))
+        model.add(
+            "hoods",
+            "stone",
+            block(x0 - 0.22, x1 + 0.22, y1 + 0.24, y1 + 0.29, 0, 0.17, 0.010),
+            block(x0 - 0.26, x1 + 0.26, y1 + 0.29, y1 + 0.34, 0, 0.22, 0.014),
+        )
         for s in (-1, 1):
             bracket = extrude([(0, 0), (0.06, 0.02), (0.14, 0.13), (0.15, 0.22), (0, 0.22)], 0.10, 0.008).turned("y", -90)
             model.add("hoods", "stone", bracket.at(middle + s * (wide / 2 + 0.10), y1 + 0.02, 0.0))
@@ -118,22 +132,54 @@ def door(model):
     for s in (-1, 1):
         for low, high in ((0.16, 0.78), (0.98, 1.62), (1.74, 2.12)):
             a, b = sorted((middle + s * 0.07, middle + s * 0.46))
-            model.add("door", "door blue", block(a, b, y0 + low, y0 + high, z - 0.01, z + 0.010, 0.003),
-                      block(a + 0.035, b - 0.035, y0 + low + 0.035, y0 + high - 0.035, z, z + 0.026, 0.016))
-    model.add("door fittings", "brass", ball(0.036, 20, 10).at(middle + 0.02, y0 + 1.08, z + 0.06), cylinder(0.014, 0.06, 14).turned("x", 90).at(middle + 0.02, y0 + 1.08, z),
-              block(middle - 0.13, middle + 0.13, y0 + 0.855, y0 + 0.905, z, z + 0.016, 0.004), block(x0 + 0.07, x1 - 0.07, y0 + 0.012, y0 + 0.11, z, z + 0.006, 0.002))
+            model.add(
+                "door",
+                "door blue",
+                block(a, b, y0 + low, y0 + high, z - 0.01, z + 0.010, 0.003),
+                block(a + 0.035, b - 0.035, y0 + low + 0.035, y0 + high - 0.035, z, z + 0.026, 0.016),
+            )
+    model.add(
+        "door fittings",
+        "brass",
+        ball(0.036, 20, 10).at(middle + 0.02, y0 + 1.08, z + 0.06),
+        cylinder(0.014, 0.06, 14).turned("x", 90).at(middle + 0.02, y0 + 1.08, z),
+        block(middle - 0.13, middle + 0.13, y0 + 0.855, y0 + 0.905, z, z + 0.016, 0.004),
+        block(x0 + 0.07, x1 - 0.07, y0 + 0.012, y0 + 0.11, z, z + 0.006, 0.002),
+    )
     ring = [(middle + 0.05 * c, y0 + 1.66 + 0.05 * s, z + 0.03) for c, s in arc((0, 0), 1, 0, 345, 23)]
     model.add("door fittings", "brass", tube(ring, 0.008, 8, closed=True), ball(0.02, 14, 8).at(middle, y0 + 1.715, z + 0.02))
-    model.add("frames", "paint", block(x0, x0 + 0.055, y0, y1, -0.20, -0.10, 0.006), block(x1 - 0.055, x1, y0, y1, -0.20, -0.10, 0.006),
-              block(x0, x1, y1 - 0.05, y1, -0.20, -0.10, 0.006), block(x0, x1, leaf - 0.04, leaf + 0.04, -0.20, -0.07, 0.008))
+    model.add(
+        "frames",
+        "paint",
+        block(x0, x0 + 0.055, y0, y1, -0.20, -0.10, 0.006),
+        block(x1 - 0.055, x1, y0, y1, -0.20, -0.10, 0.006),
+        block(x0, x1, y1 - 0.05, y1, -0.20, -0.10, 0.006),
+        block(x0, x1, leaf - 0.04, leaf + 0.04, -0.20, -0.07, 0.008),
+    )
     for k in range(1, 6):  # the fanlight's bars
         a = math.radians(30 * k)
-        model.add("frames", "paint", tube([(middle + 0.12 * math.cos(a), leaf + 0.05 + 0.08 * math.sin(a), -0.15),
-                                           (middle + 0.53 * math.cos(a), leaf + 0.05 + 0.27 * math.sin(a), -0.15)], 0.010, 6))
+        model.add(
+            "frames",
+            "paint",
+            tube(
+                [
+                    (middle + 0.12 * math.cos(a), leaf + 0.05 + 0.08 * math.sin(a), -0.15),
+                    (middle + 0.53 * math.cos(a), leaf + 0.05 + 0.27 * math.sin(a), -0.15),
+                ],
+                0.010,
+                6,
+            ),
+        )
     model.add("panes", "glass", block(x0, x1, leaf, y1, -0.165, -0.16, 0))
     for x in (x0 - 0.16, x1 + 0.16):  # pilasters with base and capital, an entablature on them
-        model.add("door case", "stone", block(x - 0.13, x + 0.13, y0, y1 + 0.06, 0, 0.16, 0.010), block(x - 0.17, x + 0.17, y0, y0 + 0.22, 0, 0.20, 0.012),
-                  block(x - 0.16, x + 0.16, y1 - 0.02, y1 + 0.06, 0, 0.20, 0.012), block(x - 0.05, x + 0.05, y0 + 0.34, y1 - 0.14, 0.15, 0.175, 0.010))
+        model.add(
+            "door case",
+            "stone",
+            block(x - 0.13, x + 0.13, y0, y1 + 0.06, 0, 0.16, 0.010),
+            block(x - 0.17, x + 0.17, y0, y0 + 0.22, 0, 0.20, 0.012),
+            block(x - 0.16, x + 0.16, y1 - 0.02, y1 + 0.06, 0, 0.20, 0.012),
+            block(x - 0.05, x + 0.05, y0 + 0.34, y1 - 0.14, 0.15, 0.175, 0.010),
+        )
     for low, high, out, reach in ((0.06, 0.22, 0.14, 0.18), (0.22, 0.27, 0.19, 0.26), (0.27, 0.34, 0.23, 0.34)):
         model.add("door case", "stone", block(x0 - 0.15 - out, x1 + 0.15 + out, y1 + low, y1 + high, 0, reach, 0.012))
     for k in range(2):
@@ -141,8 +187,15 @@ def door(model):
 
 
 def cornices(model):
-    for low, high, reach in ((GROUND - 0.02, GROUND + 0.10, 0.11), (GROUND + 0.10, GROUND + 0.19, 0.17), (FIRST - 0.02, FIRST + 0.08, 0.06),
-                             (TOP - 0.16, TOP, 0.06), (TOP + 0.12, TOP + 0.20, 0.40), (TOP + 0.20, TOP + 0.32, 0.50), (TOP, TOP + 0.12, 0.14)):
+    for low, high, reach in (
+        (GROUND - 0.02, GROUND + 0.10, 0.11),
+        (GROUND + 0.10, GROUND + 0.19, 0.17),
+        (FIRST - 0.02, FIRST + 0.08, 0.06),
+        (TOP - 0.16, TOP, 0.06),
+        (TOP + 0.12, TOP + 0.20, 0.40),
+        (TOP + 0.20, TOP + 0.32, 0.50),
+        (TOP, TOP + 0.12, 0.14),
+    ):
         model.add("cornices", "stone", block(LEFT, RIGHT + 0.6 * reach, low, high, -0.3, reach, 0.018))
     count = 36
     for k in range(count):  # modillions under the crown
@@ -150,7 +203,12 @@ def cornices(model):
         model.add("cornices", "stone", block(x - 0.06, x + 0.06, TOP + 0.0, TOP + 0.12, 0.12, 0.34, 0.012, back=False))
     model.add("roof", "roof", extrude([(0.30, 0), (-4, 2.4), (-4, 0)], RIGHT - LEFT).turned("y", -90).at((LEFT + RIGHT) / 2, TOP + 0.32, 0))
     pipe = [(RIGHT - 0.22, TOP, 0.30), (RIGHT - 0.22, TOP - 0.22, 0.10), (RIGHT - 0.22, 0.16, 0.16)]
-    model.add("downpipe", "iron", tube(pipe, 0.05, 12), *(cylinder(0.062, 0.05, 16).at(RIGHT - 0.22, y, 0.115 + 0.05 * (TOP - y) / TOP) for y in (1.2, 3.0, 4.8, 6.6)))
+    model.add(
+        "downpipe",
+        "iron",
+        tube(pipe, 0.05, 12),
+        *(cylinder(0.062, 0.05, 16).at(RIGHT - 0.22, y, 0.115 + 0.05 * (TOP - y) / TOP) for y in (1.2, 3.0, 4.8, 6.6)),
+    )
 
 
 def street(model):
@@ -162,8 +220,20 @@ def street(model):
         model.add("kerb", "kerb", block(a, b, -0.14, 0.006, KERB + 0.003, KERB + 0.16, 0.018))
     model.add("road", "asphalt", block(LEFT - 8, RIGHT + 12, -0.16, -0.12, KERB + 0.1, 12, 0).textured_from("y", 1.5, 1.5))
     model.add("joints", "slab", block(RIGHT, 30, -0.05, -0.008, -20, 0, 0))
-    post = [(0, 0), (0.11, 0), (0.11, 0.05), (0.085, 0.07), (0.075, 0.10), (0.062, 0.62), (0.072, 0.64), (0.072, 0.67), (0.060, 0.69),
-            (0.058, 0.80), (0.078, 0.82), (0.078, 0.86)]
+    post = [
+        (0, 0),
+        (0.11, 0),
+        (0.11, 0.05),
+        (0.085, 0.07),
+        (0.075, 0.10),
+        (0.062, 0.62),
+        (0.072, 0.64),
+        (0.072, 0.67),
+        (0.060, 0.69),
+        (0.058, 0.80),
+        (0.078, 0.82),
+        (0.078, 0.86),
+    ]
     post += [(0.078 * c, 0.86 + 0.075 * s) for c, s in arc((0, 0), 1, 15, 90, 6)]
     model.add("bollard", "iron", revolve(post, 20))
     for x in (-5.0, -3.5, -0.7, 0.9, 2.5):
@@ -182,7 +252,9 @@ def railing(model):
             spear = [(0.010, 0.15), (0.010, 1.07), (0.020, 1.09), (0.011, 1.11), (0.023, 1.16), (0.0, 1.25)]
             model.add("railing", "iron", revolve(spear, 6).at(x, 0, z))
         for x in (a, b):
-            newel = [(0.028, 0.15), (0.028, 1.12), (0.040, 1.14), (0.040, 1.17), (0.020, 1.19)] + [(0.042 * c, 1.24 + 0.045 * s) for c, s in arc((0, 0), 1, -60, 90, 6)]
+            newel = [(0.028, 0.15), (0.028, 1.12), (0.040, 1.14), (0.040, 1.17), (0.020, 1.19)] + [
+                (0.042 * c, 1.24 + 0.045 * s) for c, s in arc((0, 0), 1, -60, 90, 6)
+            ]
             model.add("railing", "iron", revolve(newel, 12).at(x, 0, z))
 
 
@@ -190,11 +262,37 @@ def lantern(model):
     """A cast-iron post with a ladder bar and a four-sided lantern: its frame stands between the lamp and the facade."""
     x, y, z = LAMP
     low = y - 0.30  # the lantern's floor
-    post = [(0, 0), (0.20, 0), (0.20, 0.08), (0.165, 0.12), (0.150, 0.40), (0.165, 0.44), (0.150, 0.50), (0.095, 0.62), (0.085, 0.74), (0.098, 0.77),
-            (0.080, 0.81), (0.062, 1.00), (0.048, 2.85), (0.066, 2.88), (0.066, 2.93), (0.046, 2.97), (0.040, low - 0.20), (0.060, low - 0.17),
-            (0.060, low - 0.13), (0.030, low - 0.10), (0.026, low)]
-    model.add("lamp post", "iron", revolve(post, 28).at(x, 0, z), tube([(x - 0.34, 2.90, z), (x + 0.34, 2.90, z)], 0.016, 10), ball(0.028, 14, 8).at(x - 0.35, 2.90, z),
-              ball(0.028, 14, 8).at(x + 0.35, 2.90, z))
+    post = [
+        (0, 0),
+        (0.20, 0),
+        (0.20, 0.08),
+        (0.165, 0.12),
+        (0.150, 0.40),
+        (0.165, 0.44),
+        (0.150, 0.50),
+        (0.095, 0.62),
+        (0.085, 0.74),
+        (0.098, 0.77),
+        (0.080, 0.81),
+        (0.062, 1.00),
+        (0.048, 2.85),
+        (0.066, 2.88),
+        (0.066, 2.93),
+        (0.046, 2.97),
+        (0.040, low - 0.20),
+        (0.060, low - 0.17),
+        (0.060, low - 0.13),
+        (0.030, low - 0.10),
+        (0.026, low),
+    ]
+    model.add(
+        "lamp post",
+        "iron",
+        revolve(post, 28).at(x, 0, z),
+        tube([(x - 0.34, 2.90, z), (x + 0.34, 2.90, z)], 0.016, 10),
+        ball(0.028, 14, 8).at(x - 0.35, 2.90, z),
+        ball(0.028, 14, 8).at(x + 0.35, 2.90, z),
+    )
     bottom, top, tall = 0.15, 0.235, 0.50
 
     def corner(i, height, grow=1.0):
@@ -203,33 +301,80 @@ def lantern(model):
 
     for i in range(4):
         j = (i + 1) % 4
-        model.add("lantern", "iron", tube([corner(i, 0), corner(i, tall)], 0.011, 6), tube([corner(i, 0), corner(j, 0)], 0.012, 6),
-                  tube([corner(i, tall), corner(j, tall)], 0.016, 6), tube([corner(i, 0), (x, low - 0.06, z)], 0.011, 6))
+        model.add(
+            "lantern",
+            "iron",
+            tube([corner(i, 0), corner(i, tall)], 0.011, 6),
+            tube([corner(i, 0), corner(j, 0)], 0.012, 6),
+            tube([corner(i, tall), corner(j, tall)], 0.016, 6),
+            tube([corner(i, 0), (x, low - 0.06, z)], 0.011, 6),
+        )
     model.add("lantern", "iron", box(0.50, 0.02, 0.50, 0.006).at(x, low + tall, z))
-    roof = [(0.30, 0), (0.30, 0.02), (0.20, 0.10), (0.10, 0.20), (0.085, 0.22), (0.085, 0.28), (0.10, 0.29), (0.04, 0.34), (0.018, 0.36), (0.022, 0.39), (0, 0.44)]
+    roof = [
+        (0.30, 0),
+        (0.30, 0.02),
+        (0.20, 0.10),
+        (0.10, 0.20),
+        (0.085, 0.22),
+        (0.085, 0.28),
+        (0.10, 0.29),
+        (0.04, 0.34),
+        (0.018, 0.36),
+        (0.022, 0.39),
+        (0, 0.44),
+    ]
     model.add("lantern", "iron", revolve(roof, sides=4).turned("y", 45).at(x, low + tall + 0.015, z))
     model.add("lantern", "iron", cylinder(0.02, 0.10, 14).at(x, low - 0.02, z))
 
 
 def door_lantern(model):
     x, y, z = DOOR_LAMP
-    model.add("door lamp", "brass", tube([(x, y + 0.16, 0.05), (x, y + 0.19, z * 0.6), (x, y + 0.16, z), (x, y + 0.07, z)], 0.010, 10),
-              cylinder(0.05, 0.02, 24).turned("x", 90).at(x, y + 0.16, 0.075), revolve([(0.085, 0.045), (0.088, 0.052), (0.030, 0.085), (0, 0.09)], 28).at(x, y, z))
+    model.add(
+        "door lamp",
+        "brass",
+        tube([(x, y + 0.16, 0.05), (x, y + 0.19, z * 0.6), (x, y + 0.16, z), (x, y + 0.07, z)], 0.010, 10),
+        cylinder(0.05, 0.02, 24).turned("x", 90).at(x, y + 0.16, 0.075),
+        revolve([(0.085, 0.045), (0.088, 0.052), (0.030, 0.085), (0, 0.09)], 28).at(x, y, z),
+    )
 
 
 def rig():
     room = {"temperature": "2700 K"}
     lights = [
-        {"name": "street lantern", "shape": {"type": "sphere", "radius": "35 mm"}, "emission": {"flux": "6000 lm"}, "colour": {"temperature": "2000 K"},
-         "translation": list(LAMP)},
-        {"name": "street light down the road", "shape": {"type": "spot", "inner": "30 deg", "outer": "65 deg"}, "emission": {"flux": "4000 lm"},
-         "colour": {"temperature": "3000 K"}, "translation": list(SECOND_LAMP), "rotation": aimed(SECOND_LAMP, SECOND_TARGET)},
-        {"name": "lamp at the door", "shape": {"type": "sphere", "radius": "60 mm"}, "emission": {"flux": "470 lm"}, "colour": room,
-         "translation": list(DOOR_LAMP)}]
+        {
+            "name": "street lantern",
+            "shape": {"type": "sphere", "radius": "35 mm"},
+            "emission": {"flux": "6000 lm"},
+            "colour": {"temperature": "2000 K"},
+            "translation": list(LAMP),
+        },
+        {
+            "name": "street light down the road",
+            "shape": {"type": "spot", "inner": "30 deg", "outer": "65 deg"},
+            "emission": {"flux": "4000 lm"},
+            "colour": {"temperature": "3000 K"},
+            "translation": list(SECOND_LAMP),
+            "rotation": aimed(SECOND_LAMP, SECOND_TARGET),
+        },
+        {
+            "name": "lamp at the door",
+            "shape": {"type": "sphere", "radius": "60 mm"},
+            "emission": {"flux": "470 lm"},
+            "colour": room,
+            "translation": list(DOOR_LAMP),
+        },
+    ]
     for (x0, x1, y0, y1), luminance, name in zip(LIT, (16, 20, 10), ("first floor", "ground floor", "second floor")):
-        lights.append({"name": f"lit window, {name}", "shape": {"type": "rect", "width": f"{round(x1 - x0, 3)} m", "height": f"{round(y1 - y0, 3)} m"},
-                       "emission": {"luminance": f"{luminance} nit"}, "colour": room,
-                       "translation": [round((x0 + x1) / 2, 4), round((y0 + y1) / 2, 4), -0.27], "rotation": TOWARDS_VIEWER})
+        lights.append(
+            {
+                "name": f"lit window, {name}",
+                "shape": {"type": "rect", "width": f"{round(x1 - x0, 3)} m", "height": f"{round(y1 - y0, 3)} m"},
+                "emission": {"luminance": f"{luminance} nit"},
+                "colour": room,
+                "translation": [round((x0 + x1) / 2, 4), round((y0 + y1) / 2, 4), -0.27],
+                "rotation": TOWARDS_VIEWER,
+            }
+        )
     lights.append({"name": "sky", "shape": {"type": "environment"}, "emission": {"luminance": "3.0 nit"}, "colour": {"daylight": "20000 K"}})
     camera = {"position": [-3.7, 1.6, 9.6], "target": [-0.15, 3.7, 0.0], "vfov": "49 deg", "exposure": {"ev100": 3.4}}
     return rig_file(lights, camera, [{"gltf": "street.glb"}])

@@ -7,7 +7,8 @@ from modelling.model import Model
 from modelling.pixels import clouds, mix, noise, png
 from modelling.props import coffee, cup, saucer
 from modelling.rig import aimed, rig_file
-from modelling.shapes import arc, ball, block, cylinder, extrude, revolve, rounded, spline, surface, tube
+from modelling.shapes import arc, block, cylinder, extrude, revolve, rounded, surface, tube
+from scenes.espresso import GROUP, machine
 
 FLOOR = -0.76  # y = 0 is the top of the table
 KEY, KEY_SIZE = (-0.38, 0.83, -0.12), (0.60, 0.90)
@@ -24,7 +25,14 @@ def build():
         metal.material(name, (0.8, 0.8, 0.8), 0.35, 1.0)
     set_model = Model("studio")
     materials(set_model)
-    machine(set_model, metals)
+
+    def put(metal, *meshes):
+        metals[metal].add("machine", metal, *(m.turned("y", TURN) for m in meshes))
+
+    def dress(material, *meshes):
+        set_model.add("machine", material, *(m.turned("y", TURN) for m in meshes))
+
+    machine(put, dress)
     sweep(set_model)
     lights_and_stands(set_model)
     files = {f"studio_{name}.glb": metal.glb() for name, metal in metals.items()}
@@ -53,89 +61,6 @@ def walnut():
         return mix((0.24, 0.13, 0.075), (0.50, 0.31, 0.19), 0.6 * rings + 0.4 * clouds(u, v, 24, 3, 2, 19))
 
     return png(64, 128, pixel)
-
-
-def machine(model, metals):
-    """Half a metre tall: a bell-shaped base with a drip grate, a copper boiler between brass collars, a dome, the group with
-    its lever, a steam wand, a gauge and a sight glass. Modelled facing +z, then turned."""
-    def put(metal, *meshes):
-        metals[metal].add("machine", metal, *(m.turned("y", TURN) for m in meshes))
-
-    def dress(material, *meshes):
-        model.add("machine", material, *(m.turned("y", TURN) for m in meshes))
-
-    back = -0.035  # the boiler's axis
-    base = [(0, 0.012), (0.128, 0.012), (0.134, 0.016), (0.134, 0.024), (0.128, 0.030)] + spline(
-        [(0.126, 0.032), (0.120, 0.050), (0.108, 0.062), (0.104, 0.066)], 4) + [(0.098, 0.070), (0.0, 0.070)]
-    put("chrome", revolve(base, 64))
-    for k in range(4):
-        put("brass", ball(0.013, 16, 8).stretched(1, 0.9, 1).at(0.105 * math.sin(0.8 + math.pi / 2 * k), 0.0118, 0.105 * math.cos(0.8 + math.pi / 2 * k)))
-    grate = [block(-half, half, 0.0700, 0.0740, 0.020 + 0.0095 * k, 0.0245 + 0.0095 * k, 0.0012)
-             for k, half in ((k, math.sqrt(0.092**2 - (0.022 + 0.0095 * k) ** 2)) for k in range(7))]
-    put("chrome", *grate)
-
-    boiler = [(0.064, 0.118), (0.0665, 0.122), (0.0665, 0.352), (0.064, 0.356)]
-    put("copper", revolve(boiler, 64).at(0, 0, back))
-    collar = [(0.058, 0.0), (0.070, 0.0), (0.0745, 0.004), (0.0745, 0.012), (0.0705, 0.016), (0.0705, 0.021), (0.058, 0.021)]
-    foot = spline([(0.094, 0.070), (0.088, 0.080), (0.074, 0.090), (0.069, 0.099)], 4)
-    put("brass", revolve([*foot, (0.058, 0.100)], 64).at(0, 0, back), revolve(collar, 64).at(0, 0.099, back), revolve(collar, 64).at(0, 0.350, back))
-    dome = [(0.0690, 0.371)] + [(0.069 * x, 0.371 + 0.058 * y) for x, y in arc((0, 0), 1.0, 4, 80, 12)]
-    put("copper", revolve([*dome, (0, 0.429)], 64).at(0, 0, back))
-    finial = [(0.020, 0.425), (0.022, 0.430), (0.012, 0.436), (0.009, 0.442), (0.016, 0.447), (0.016, 0.451), (0.008, 0.456)]
-    finial += [(0.017 * x, 0.473 + 0.019 * y) for x, y in arc((0, 0), 1.0, -62, 66, 10)] + [(0.004, 0.493), (0.0035, 0.503), (0, 0.506)]
-    put("brass", revolve(finial, 40).at(0, 0, back))
-
-    group_z = 0.088
-    put("chrome", tube([(0, 0.262, 0.028), (0, 0.262, 0.070)], 0.022, 28), cylinder(0.040, 0.012, 36).turned("x", 90).at(0, 0.262, 0.022))
-    barrel = [(0.0, 0.208), (0.034, 0.208), (0.036, 0.211), (0.036, 0.232), (0.033, 0.236), (0.0285, 0.240), (0.0285, 0.322), (0.031, 0.325),
-              (0.031, 0.338), (0.027, 0.343), (0.012, 0.345), (0.009, 0.349), (0.009, 0.372), (0, 0.372)]
-    put("chrome", revolve(barrel, 48).at(0, 0, group_z))
-    put("brass", revolve([(0.0285, 0.268), (0.0315, 0.271), (0.0315, 0.281), (0.0285, 0.284)], 48).at(0, 0, group_z))
-    fork = extrude([(-0.012, 0.0), (0.012, 0.0), (0.010, 0.034), (0.004, 0.040), (-0.004, 0.040), (-0.010, 0.034)], 0.006, 0.001).turned("y", 90)
-    put("chrome", *(fork.at(s * 0.0125, 0.340, group_z) for s in (-1, 1)), tube([(-0.018, 0.368, group_z), (0.018, 0.368, group_z)], 0.0045, 14))
-    lever = [(0, 0.352, group_z - 0.030), (0, 0.368, group_z), (0, 0.424, group_z + 0.075)]
-    put("chrome", tube(lever, 0.0062, 14))
-    grip = [(0, -0.004), (0.007, -0.004), (0.0085, 0.0), (0.0095, 0.02), (0.0135, 0.060), (0.0150, 0.082), (0.0125, 0.100), (0.006, 0.108), (0, 0.109)]
-    lean = 53.0  # from the vertical, as the lever
-    dress("walnut", revolve(spline_profile(grip), 24).turned("x", lean).at(0, 0.424, group_z + 0.075))
-
-    put("chrome", revolve([(0.022, 0.178), (0.030, 0.184), (0.034, 0.190), (0.034, 0.206), (0.030, 0.208)], 40, 50).at(0, 0, group_z),
-        revolve([(0, 0.170), (0.007, 0.170), (0.008, 0.178), (0.022, 0.178)], 24).at(0, 0, group_z))
-    for s in (-1, 1):
-        put("chrome", tube(spline([(0, 0.174, group_z), (s * 0.012, 0.170, group_z), (s * 0.015, 0.156, group_z)], 4), 0.0052, 12))
-    put("chrome", tube([(0, 0.197, group_z + 0.030), (0, 0.193, group_z + 0.062)], [0.0075, 0.0065], 14))
-    dress("walnut", revolve(spline_profile([(0, -0.002), (0.008, -0.002), (0.0095, 0.004), (0.0105, 0.02), (0.0145, 0.062), (0.0155, 0.084), (0.012, 0.102), (0, 0.108)]), 24)
-          .turned("x", 97).at(0, 0.193, group_z + 0.060))
-
-    wand = spline([(0.060, 0.300, back + 0.02), (0.105, 0.304, 0.0), (0.122, 0.285, 0.010), (0.126, 0.20, 0.022), (0.136, 0.125, 0.040)], 6)
-    put("chrome", tube(wand, 0.0052, 14), cylinder(0.012, 0.030, 24).turned("z", -90).at(0.058, 0.300, back + 0.02),
-        ball(0.0075, 14, 8).at(0.1365, 0.121, 0.041))
-    knob = [(0, 0), (0.010, 0), (0.018, 0.006), (0.020, 0.016), (0.016, 0.025), (0, 0.028)]
-    put("chrome", tube([(0.082, 0.300, back + 0.018), (0.104, 0.322, back + 0.018)], 0.005, 12))
-    dress("walnut", revolve(spline_profile(knob), 28).turned("z", -45).at(0.100, 0.318, back + 0.018))
-    gauge(put, dress, back)
-
-
-def spline_profile(points):
-    """Rounded between its points, the first and the last segments kept straight."""
-    return [points[0]] + spline(points[1:-1], 4) + [points[-1]]
-
-
-def gauge(put, dress, back):
-    """A pressure gauge on a stub at the left of the boiler, and below it the sight glass's two fittings and its rod."""
-    def around(mesh, height):
-        return mesh.turned("y", -62).at(0, height, back)
-
-    case = revolve([(0, 0), (0.024, 0), (0.028, 0.004), (0.028, 0.016), (0.025, 0.018), (0.0235, 0.0165), (0.0235, 0.013)], 40, 50)
-    put("brass", around(case.turned("x", 90).at(0, 0, 0.078), 0.315), around(tube([(0, 0, 0.06), (0, 0, 0.080)], 0.007, 14), 0.315))
-    dress("dial white", around(revolve([(0.0236, 0.0135), (0, 0.0135)], 40).turned("x", 90).at(0, 0, 0.078), 0.315))
-    for k in range(9):
-        mark = block(-0.0006, 0.0006, 0.0165, 0.021, 0.0136, 0.0140, 0).turned("z", 120 - 30 * k)
-        dress("red" if k > 6 else "ink", around(mark.at(0, 0, 0.078), 0.315))
-    dress("ink", around(block(-0.0008, 0.0008, -0.005, 0.017, 0.0140, 0.0150, 0.0003).turned("z", 25).at(0, 0, 0.078), 0.315))
-    for height in (0.145, 0.255):
-        put("brass", around(merged(tube([(0, 0, 0.06), (0, 0, 0.088)], 0.006, 14), cylinder(0.009, 0.026, 20).at(0, -0.013, 0.088)), height))
-    put("chrome", around(tube([(0, 0.145, 0.088), (0, 0.255, 0.088)], 0.0052, 16), 0.0))
 
 
 def sweep(model):
@@ -167,7 +92,7 @@ def sweep(model):
     model.place("saucer", 0.215, 0.0, 0.175)
     model.place("cup", 0.215, 0.0055, 0.175, -30)
     spout = math.radians(TURN)
-    model.place("cup", 0.088 * math.sin(spout), 0.074, 0.088 * math.cos(spout), -150)
+    model.place("cup", GROUP * math.sin(spout), 0.074, GROUP * math.cos(spout), -150)
 
 
 def stand(model, x, z, top):
@@ -183,21 +108,24 @@ def soft_box(width, height, depth):
     """A fabric pyramid behind the diffuser, its lip in front of it, and the lamp head: (fabric, head). Faces -Z."""
     w, h, lip, thick = width / 2, height / 2, 0.045, 0.006
     ring = 0.075
-    fabric = [block(-w - thick, w + thick, h, h + thick, -lip, 0.004, 0.002), block(-w - thick, w + thick, -h - thick, -h, -lip, 0.004, 0.002),
-              block(-w - thick, -w, -h, h, -lip, 0.004, 0.002), block(w, w + thick, -h, h, -lip, 0.004, 0.002)]
+    fabric = [
+        block(-w - thick, w + thick, h, h + thick, -lip, 0.004, 0.002),
+        block(-w - thick, w + thick, -h - thick, -h, -lip, 0.004, 0.002),
+        block(-w - thick, -w, -h, h, -lip, 0.004, 0.002),
+        block(w, w + thick, -h, h, -lip, 0.004, 0.002),
+    ]
     corners = [(-w, -h), (w, -h), (w, h), (-w, h)]
-    for k in range(4):
-        (ax, ay), (bx, by) = corners[k], corners[(k + 1) % 4]
-        sa, sb = (ring / max(w, h), ring / max(w, h))
+    for (ax, ay), (bx, by) in zip(corners, corners[1:] + corners[:1]):
 
-        def side(u, v, ax=ax, ay=ay, bx=bx, by=by, sa=sa, sb=sb):
-            x, y = ax + (bx - ax) * u, ay + (by - ay) * u
-            t = 1 - math.cos(math.pi / 2 * (1 - v))  # the rods bow outwards
-            return (x * (sa + (1 - sa) * (1 - t)), y * (sb + (1 - sb) * (1 - t)), 0.002 + depth * (1 - v))
+        def side(u, v, ax=ax, ay=ay, bx=bx, by=by):
+            wide = ring / max(w, h) + (1 - ring / max(w, h)) * math.cos(math.pi / 2 * v)  # the rods bow outwards
+            return (wide * (ax + (bx - ax) * u), wide * (ay + (by - ay) * u), 0.002 + depth * v)
 
-        fabric.append(surface(lambda u, v, side=side: side(u, 1 - v), 2, 8))
-    head = merged(cylinder(0.085, 0.025, 32, 0.003).turned("x", 90).at(0, 0, depth - 0.005),
-                  extrude(rounded(0.13, 0.15, 0.02), 0.26, 0.008).at(0, 0, depth + 0.15))
+        fabric.append(surface(side, 2, 8))
+    head = merged(
+        cylinder(0.085, 0.025, 32, 0.003).turned("x", 90).at(0, 0, depth - 0.005),
+        extrude(rounded(0.13, 0.15, 0.02), 0.26, 0.008).at(0, 0, depth + 0.15),
+    )
     return merged(*fabric), head
 
 
@@ -208,7 +136,12 @@ def lights_and_stands(model):
         model.add("soft boxes", "black metal", aimed_mesh(head, position, SUBJECT))
     stand(model, -0.98, -0.20, 1.45)
     stand(model, 1.02, -0.25, 0.50)
-    model.add("stands", "stand steel", tube([(-1.05, 1.47, -0.20), (-0.56, 1.18, -0.16)], 0.012, 12), tube([(1.02, 0.48, -0.25), (0.95, 0.44, -0.2)], 0.012, 12))
+    model.add(
+        "stands",
+        "stand steel",
+        tube([(-1.05, 1.47, -0.20), (-0.56, 1.18, -0.16)], 0.012, 12),
+        tube([(1.02, 0.48, -0.25), (0.95, 0.44, -0.2)], 0.012, 12),
+    )
     dish = revolve([(0.087, 0.0), (0.088, 0.002), (0.060, 0.10), (0.050, 0.12), (0.050, 0.30), (0, 0.30)], 32).turned("x", 90)
     model.add("rim head", "black metal", aimed_mesh(dish, RIM, SUBJECT))
     w, h = (size / 2 for size in REFLECTOR_SIZE)
@@ -221,18 +154,34 @@ def rig():
     daylight = {"temperature": "5600 K"}
 
     def rect(name, position, size, emission):
-        return {"name": name, "shape": {"type": "rect", "width": f"{size[0]} m", "height": f"{size[1]} m"}, "emission": emission, "colour": daylight,
-                "translation": list(position), "rotation": aimed(position, SUBJECT)}
+        return {
+            "name": name,
+            "shape": {"type": "rect", "width": f"{size[0]} m", "height": f"{size[1]} m"},
+            "emission": emission,
+            "colour": daylight,
+            "translation": list(position),
+            "rotation": aimed(position, SUBJECT),
+        }
 
-    lights = [rect("key soft box", KEY, KEY_SIZE, {"flux": "2700 lm"}), rect("strip light", STRIP, STRIP_SIZE, {"flux": "2700 lm"}),
-              {"name": "rim", "shape": {"type": "disk", "radius": "85 mm"}, "emission": {"flux": "4500 lm"}, "colour": daylight,
-               "translation": list(RIM), "rotation": aimed(RIM, SUBJECT)},
-              rect("reflector", REFLECTOR, REFLECTOR_SIZE, {"luminance": "300 nit"}),
-              {"name": "spill", "shape": {"type": "environment"}, "emission": {"luminance": "30 nit"}, "colour": {"temperature": "4500 K"}}]
+    lights = [
+        rect("key soft box", KEY, KEY_SIZE, {"flux": "2700 lm"}),
+        rect("strip light", STRIP, STRIP_SIZE, {"flux": "2700 lm"}),
+        {
+            "name": "rim",
+            "shape": {"type": "disk", "radius": "85 mm"},
+            "emission": {"flux": "4500 lm"},
+            "colour": daylight,
+            "translation": list(RIM),
+            "rotation": aimed(RIM, SUBJECT),
+        },
+        rect("reflector", REFLECTOR, REFLECTOR_SIZE, {"luminance": "300 nit"}),
+        {"name": "spill", "shape": {"type": "environment"}, "emission": {"luminance": "30 nit"}, "colour": {"temperature": "4500 K"}},
+    ]
     materials = [
         {"name": "copper", "model": "conductor", "eta": [0.2004, 0.9240, 1.1022], "k": [3.9129, 2.4528, 2.1422], "alpha": 0.14},
         {"name": "brass", "model": "conductor", "f0": [0.887, 0.789, 0.434], "alpha": 0.16},
-        {"name": "chrome", "model": "conductor", "eta": [3.18, 3.18, 2.33], "k": [3.31, 3.33, 3.14], "alpha": 0.10}]
+        {"name": "chrome", "model": "conductor", "eta": [3.18, 3.18, 2.33], "k": [3.31, 3.33, 3.14], "alpha": 0.10},
+    ]
     objects = [{"gltf": "studio.glb"}] + [{"gltf": f"studio_{name}.glb", "material": name} for name in ("copper", "brass", "chrome")]
     camera = {"position": [0.08, 0.42, 2.35], "target": [0.0, 0.325, 0.0], "vfov": "26 deg", "exposure": {"ev100": 8.3}}
     return rig_file(lights, camera, objects, materials)

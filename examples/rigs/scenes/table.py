@@ -85,12 +85,25 @@ def oak_normal():
 
 
 def weave():
-    return normal_png(48, 48, lambda u, v: 0.0006 * max(math.sin(2 * math.pi * 6 * u) * (1 if int(v * 12) % 2 else -1),
-                                                        math.sin(2 * math.pi * 6 * v) * (1 if int(u * 12) % 2 else -1)), 0.05, 0.05)
+    return normal_png(
+        48,
+        48,
+        lambda u, v: (
+            0.0006
+            * max(math.sin(2 * math.pi * 6 * u) * (1 if int(v * 12) % 2 else -1), math.sin(2 * math.pi * 6 * v) * (1 if int(u * 12) % 2 else -1))
+        ),
+        0.05,
+        0.05,
+    )
 
 
-LETTERS = {"E": "1111 1000 1000 1110 1000 1000 1111", "T": "11111 00100 00100 00100 00100 00100 00100", "N": "10001 11001 11101 10111 10011 10001 10001",
-           "D": "1110 1001 1001 1001 1001 1001 1110", "U": "1001 1001 1001 1001 1001 1001 0110"}
+LETTERS = {
+    "E": "1111 1000 1000 1110 1000 1000 1111",
+    "T": "11111 00100 00100 00100 00100 00100 00100",
+    "N": "10001 11001 11101 10111 10011 10001 10001",
+    "D": "1110 1001 1001 1001 1001 1001 1110",
+    "U": "1001 1001 1001 1001 1001 1001 0110",
+}
 
 
 def written(word, x, y):
@@ -105,6 +118,7 @@ def written(word, x, y):
 
 def label():
     """Cream paper with a border, a sun over hills, the name, and a band."""
+
     def pixel(u, v):
         x, y = int(u * 96), int(v * 112)
         paper, ink, red, gold = (0.90, 0.86, 0.76), (0.16, 0.12, 0.12), (0.50, 0.09, 0.10), (0.70, 0.53, 0.25)
@@ -152,7 +166,11 @@ def room(model):
 def wine(model):
     x, z, turn = -0.135, -0.115, 8
     model.add("wine", "bottle glass", bottle(0.305, 0.037, 0.0142).at(x, 0, z))
-    model.add("wine", "capsule", revolve([(0.0158, 0.250), (0.0158, 0.286), (0.0178, 0.288), (0.0178, 0.304), (0.0165, 0.3065), (0, 0.3065)], 32).at(x, 0, z))
+    model.add(
+        "wine",
+        "capsule",
+        revolve([(0.0158, 0.250), (0.0158, 0.286), (0.0178, 0.288), (0.0178, 0.304), (0.0165, 0.3065), (0, 0.3065)], 32).at(x, 0, z),
+    )
 
     def paper(u, v):
         a = 1.9 * (u - 0.5)
@@ -195,10 +213,30 @@ def cups(model):
 
 
 def candlestick(model):
-    x, y, z = CANDLE
-    stick = [(0, 0), (0.044, 0), (0.046, 0.004), (0.043, 0.008), (0.030, 0.012), (0.014, 0.020), (0.0085, 0.034), (0.014, 0.042), (0.016, 0.047),
-             (0.013, 0.052), (0.0075, 0.060), (0.0068, 0.092), (0.012, 0.100), (0.0125, 0.106), (0.009, 0.111), (0.020, 0.116), (0.0235, 0.119),
-             (0.0225, 0.1225), (0.013, 0.121), (0.0125, 0.134), (0.0105, 0.134)]
+    x, _, z = CANDLE
+    stick = [
+        (0, 0),
+        (0.044, 0),
+        (0.046, 0.004),
+        (0.043, 0.008),
+        (0.030, 0.012),
+        (0.014, 0.020),
+        (0.0085, 0.034),
+        (0.014, 0.042),
+        (0.016, 0.047),
+        (0.013, 0.052),
+        (0.0075, 0.060),
+        (0.0068, 0.092),
+        (0.012, 0.100),
+        (0.0125, 0.106),
+        (0.009, 0.111),
+        (0.020, 0.116),
+        (0.0235, 0.119),
+        (0.0225, 0.1225),
+        (0.013, 0.121),
+        (0.0125, 0.134),
+        (0.0105, 0.134),
+    ]
     model.add("candlestick", "brass", revolve(stick, 40, 30).at(x, 0, z))
     wax = [(0.0102, 0.125), (0.0098, 0.190), (0.0088, 0.193), (0.006, 0.1905), (0, 0.190)]
     model.add("candlestick", "wax", revolve(wax, 24, 60).at(x, 0, z))
@@ -208,7 +246,17 @@ def candlestick(model):
 def watch(model):
     """A wrist watch on its closed strap: 40 mm case with lugs and crown, dial with hands. Modelled facing +z around the origin."""
     parts = {"steel": [], "dial": [], "lume": [], "leather": []}
-    case = [(0, -0.006), (0.0175, -0.006), (0.0195, -0.004), (0.0198, 0.001), (0.0190, 0.0030), (0.0192, 0.0036), (0.0176, 0.0052), (0.0168, 0.0050), (0.0166, 0.0030)]
+    case = [
+        (0, -0.006),
+        (0.0175, -0.006),
+        (0.0195, -0.004),
+        (0.0198, 0.001),
+        (0.0190, 0.0030),
+        (0.0192, 0.0036),
+        (0.0176, 0.0052),
+        (0.0168, 0.0050),
+        (0.0166, 0.0030),
+    ]
     parts["steel"] += [revolve(case, 56, 25).turned("x", 90), cylinder(0.0030, 0.0045, 16, 0.0006).turned("z", -90).at(0.0195, 0, -0.001)]
     for s in (-1, 1):
         for t in (-1, 1):
@@ -225,7 +273,9 @@ def watch(model):
     parts["steel"].append(revolve([(0.0012, 0.0030), (0.0012, 0.0046), (0, 0.0046)], 14).turned("x", 90))
     parts["steel"].append(block(-0.0002, 0.0002, -0.004, 0.014, 0.0043, 0.0045, 0).turned("z", 140))
     for side in (1, -1):  # two halves of the strap, from the lugs round the back
-        path = spline([(side * 0.0205, -0.0035), (side * 0.0275, -0.012), (side * 0.0300, -0.027), (side * 0.0215, -0.044), (-side * 0.002, -0.0515)], 6)
+        path = spline(
+            [(side * 0.0205, -0.0035), (side * 0.0275, -0.012), (side * 0.0300, -0.027), (side * 0.0215, -0.044), (-side * 0.002, -0.0515)], 6
+        )
         if side < 0:
             path = [(y, z - 0.003 * smooth(0.6, 1.0, k / (len(path) - 1))) for k, (y, z) in enumerate(path)]
         thick = 0.0013
@@ -244,35 +294,84 @@ def watch(model):
 
 def desk_lamp(model):
     """An enamelled dome shade around the bulb, on a jointed arm that comes from the right."""
-    shade = [(0.094, -0.058), (0.0935, -0.056)] + spline([(0.090, -0.040), (0.074, 0.000), (0.046, 0.030), (0.026, 0.040)], 5) + [(0.024, 0.044), (0.024, 0.075), (0.018, 0.080), (0, 0.080)]
-    inside = [(0, 0.036), (0.024, 0.036)] + [(r - 0.0022, y - 0.001) for r, y in spline([(0.026, 0.038), (0.046, 0.028), (0.074, -0.001), (0.090, -0.041)], 5)] + [(0.0915, -0.0585), (0.094, -0.058)]
+    shade = (
+        [(0.094, -0.058), (0.0935, -0.056)]
+        + spline([(0.090, -0.040), (0.074, 0.000), (0.046, 0.030), (0.026, 0.040)], 5)
+        + [(0.024, 0.044), (0.024, 0.075), (0.018, 0.080), (0, 0.080)]
+    )
+    inside = (
+        [(0, 0.036), (0.024, 0.036)]
+        + [(r - 0.0022, y - 0.001) for r, y in spline([(0.026, 0.038), (0.046, 0.028), (0.074, -0.001), (0.090, -0.041)], 5)]
+        + [(0.0915, -0.0585), (0.094, -0.058)]
+    )
 
     def hung(mesh):  # modelled hanging down, turned to face along -Z, then aimed
         return aimed_mesh(mesh.turned("x", 90), BULB, LAMP_TARGET)
 
     model.add("desk lamp", "enamel", hung(revolve(shade, 48)))
     model.add("desk lamp", "enamel white", hung(revolve(inside, 48)))
-    model.add("desk lamp", "brass", hung(revolve([(0.0145, 0.026), (0.0145, 0.037), (0, 0.037)], 24)), hung(cylinder(0.012, 0.018, 20).at(0, 0.079, 0)))
+    model.add(
+        "desk lamp", "brass", hung(revolve([(0.0145, 0.026), (0.0145, 0.037), (0, 0.037)], 24)), hung(cylinder(0.012, 0.018, 20).at(0, 0.079, 0))
+    )
     top = tuple(b + 0.095 * (b - t) / math.dist(BULB, LAMP_TARGET) for b, t in zip(BULB, LAMP_TARGET))
     elbow, foot = (0.50, 0.585, -0.20), (0.46, 0.03, -0.26)
-    model.add("desk lamp", "brass", tube([top, elbow], 0.006, 12), tube([elbow, foot], 0.007, 12), cylinder(0.016, 0.03, 20).turned("x", 90).at(elbow[0], elbow[1], elbow[2] - 0.015))
-    model.add("desk lamp", "enamel", revolve([(0, 0), (0.085, 0), (0.088, 0.006), (0.080, 0.018), (0.020, 0.030), (0, 0.032)], 40).at(foot[0], 0, foot[2]))
-    model.add("strip fitting", "frame white", extrude(rounded(0.022, 0.012, 0.002, 2), 1.04, 0.001).turned("y", 90).at(STRIP[0], STRIP[1] + 0.014, STRIP[2]))
+    model.add(
+        "desk lamp",
+        "brass",
+        tube([top, elbow], 0.006, 12),
+        tube([elbow, foot], 0.007, 12),
+        cylinder(0.016, 0.03, 20).turned("x", 90).at(elbow[0], elbow[1], elbow[2] - 0.015),
+    )
+    model.add(
+        "desk lamp", "enamel", revolve([(0, 0), (0.085, 0), (0.088, 0.006), (0.080, 0.018), (0.020, 0.030), (0, 0.032)], 40).at(foot[0], 0, foot[2])
+    )
+    model.add(
+        "strip fitting", "frame white", extrude(rounded(0.022, 0.012, 0.002, 2), 1.04, 0.001).turned("y", 90).at(STRIP[0], STRIP[1] + 0.014, STRIP[2])
+    )
 
 
 def rig():
     half = math.sqrt(0.5)
     lights = [
-        {"name": "window", "shape": {"type": "rect", "width": f"{WINDOW_SIZE[0]} m", "height": f"{WINDOW_SIZE[1]} m"}, "emission": {"luminance": "1000 nit"},
-         "colour": {"daylight": "7000 K"}, "translation": list(WINDOW), "rotation": [0, round(-half, 7), 0, round(half, 7)]},
-        {"name": "desk lamp", "shape": {"type": "sphere", "radius": "30 mm"}, "emission": {"flux": "249 lm"}, "colour": {"temperature": "2700 K"},
-         "translation": list(BULB)},
-        {"name": "LED strip", "shape": {"type": "tube", "length": "1.0 m", "radius": "6 mm", "caps": "flat"}, "emission": {"flux": "420 lm"},
-         "colour": {"temperature": "3000 K"}, "translation": list(STRIP)},
-        {"name": "candle", "shape": {"type": "tube", "length": "14 mm", "radius": "4 mm", "caps": "round"}, "emission": {"flux": "12.57 lm"},
-         "colour": {"temperature": "1900 K"}, "translation": list(CANDLE), "rotation": [0, 0, round(half, 7), round(half, 7)]},
-        {"name": "accent spot", "shape": {"type": "spot", "inner": "8 deg", "outer": "26 deg"}, "emission": {"flux": "345 lm"}, "colour": {"temperature": "3000 K"},
-         "translation": list(SPOT), "rotation": aimed(SPOT, SPOT_TARGET)},
-        {"name": "rest of the room", "shape": {"type": "environment"}, "emission": {"luminance": "16 nit"}, "colour": {"temperature": "4000 K"}}]
+        {
+            "name": "window",
+            "shape": {"type": "rect", "width": f"{WINDOW_SIZE[0]} m", "height": f"{WINDOW_SIZE[1]} m"},
+            "emission": {"luminance": "1000 nit"},
+            "colour": {"daylight": "7000 K"},
+            "translation": list(WINDOW),
+            "rotation": [0, round(-half, 7), 0, round(half, 7)],
+        },
+        {
+            "name": "desk lamp",
+            "shape": {"type": "sphere", "radius": "30 mm"},
+            "emission": {"flux": "249 lm"},
+            "colour": {"temperature": "2700 K"},
+            "translation": list(BULB),
+        },
+        {
+            "name": "LED strip",
+            "shape": {"type": "tube", "length": "1.0 m", "radius": "6 mm", "caps": "flat"},
+            "emission": {"flux": "420 lm"},
+            "colour": {"temperature": "3000 K"},
+            "translation": list(STRIP),
+        },
+        {
+            "name": "candle",
+            "shape": {"type": "tube", "length": "14 mm", "radius": "4 mm", "caps": "round"},
+            "emission": {"flux": "12.57 lm"},
+            "colour": {"temperature": "2000 K"},
+            "translation": list(CANDLE),
+            "rotation": [0, 0, round(half, 7), round(half, 7)],
+        },
+        {
+            "name": "accent spot",
+            "shape": {"type": "spot", "inner": "8 deg", "outer": "37 deg"},
+            "emission": {"flux": "344 lm"},
+            "colour": {"temperature": "3000 K"},
+            "translation": list(SPOT),
+            "rotation": aimed(SPOT, SPOT_TARGET),
+        },
+        {"name": "rest of the room", "shape": {"type": "environment"}, "emission": {"luminance": "16 nit"}, "colour": {"temperature": "4000 K"}},
+    ]
     camera = {"position": [0.02, 0.40, 0.98], "target": [0.01, 0.115, 0.0], "vfov": "30 deg", "exposure": {"ev100": 6.9}}
     return rig_file(lights, camera, [{"gltf": "table.glb"}])
