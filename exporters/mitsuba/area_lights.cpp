@@ -1,3 +1,4 @@
+#include "emission_texture.h"
 #include "light_meshes.h"
 #include "lights.h"
 
@@ -24,13 +25,18 @@ void add_black(Writer& writer, pugi::xml_node shape) {
   add_reference(shape, black);
 }
 
-void add_emission(Writer& writer, const LightEntry& entry, pugi::xml_node shape, const Rgb& radiance) {
-  if (entry.lit) add_rgb(add_plugin(shape, "emitter", "area"), "radiance", radiance);
+// What the shape reflects: its surface material, else black.
+void add_surface(Writer& writer, const LightEntry& entry, pugi::xml_node shape) {
   if (entry.light.surface_material) {
     add_reference(shape, material_id(writer.scene, *entry.light.surface_material));
   } else if (!entry.lit) {
     add_black(writer, shape);
   }
+}
+
+void add_emission(Writer& writer, const LightEntry& entry, pugi::xml_node shape, const Rgb& radiance) {
+  if (entry.lit) add_rgb(add_plugin(shape, "emitter", "area"), "radiance", radiance);
+  add_surface(writer, entry, shape);
 }
 
 // The other side of a planar light: half a turn about its Y axis.
@@ -52,13 +58,45 @@ Status write_planar(Writer& writer, const LightEntry& entry, const char* type, c
 }
 
 // Mesh emitters have flat faces: Mitsuba would emit about interpolated normals.
-Status write_mesh_body(Writer& writer, const LightEntry& entry, const Mesh& mesh, const Rgb& radiance) {
+Status write_mesh_body(Writer& writer, const LightEntry& entry, Mesh mesh, const Rgb& radiance) {
   const Light& light = entry.light;
-  Result<pugi::xml_node> shape =
-      add_mesh_shape(writer, entry.id, emits_both_sides(light) ? two_sided(mesh, gap_of(writer)) : mesh, light.transform, true);
+  if (emits_both_sides(light)) mesh = two_sided(mesh, gap_of(writer));
+  pugi::xml_node emitter;
+  const bool textured = entry.lit && light.emission.texture && !mesh.uvs.empty();
+  if (textured) {
+    // The emitter is written first, because it moves the texture coordinates.
+    emitter = add_plugin(writer.root, "emitter", "area");
+    if (Status s = add_textured_radiance(writer, emitter, mesh, *light.emission.texture, radiance, name_for_losses(light)); !s) return s;
+  }
+  Result<pugi::xml_node> shape = add_mesh_shape(writer, entry.id, mesh, light.transform, true);
   if (!shape) return shape.error();
-  add_emission(writer, entry, *shape, radiance);
+  if (!textured) {
+    add_emission(writer, entry, *shape, radiance);
+    return Done{};
+  }
+  shape->append_move(emitter);
+  add_surface(writer, entry, *shape);
   return Done{};
+}
+
+// A planar light with a picture, as a mesh: Mitsuba's disk has polar coordinates, its rectangle upside-down ones.
+Status write_textured(Writer& writer, const LightEntry& entry, const PolygonShape& outline) {
+  Mesh mesh = polygon_mesh(outline);
+  set_planar_uvs(mesh);
+  return write_mesh_body(writer, entry, std::move(mesh), entry.resolved.rgb);
+}
+
+bool is_textured(const LightEntry& entry) { return entry.light.emission.texture.has_value(); }
+
+// 256 corners, at the distance at which the polygon's area, n/2 r^2 sin(2 pi / n), is the disk's.
+PolygonShape outline_of(const DiskShape& disk) {
+  constexpr int corners = 256;
+  const double radius = disk.radius * std::sqrt(2 * pi / corners / std::sin(2 * pi / corners));
+  PolygonShape outline;
+  for (int i = 0; i < corners; ++i) {
+    outline.points.push_back({radius * std::cos(2 * pi * i / corners), radius * std::sin(2 * pi * i / corners)});
+  }
+  return outline;
 }
 
 }  // namespace
@@ -72,17 +110,23 @@ Status write_sphere(Writer& writer, const LightEntry& entry, const SphereShape& 
 }
 
 Status write_disk(Writer& writer, const LightEntry& entry, const DiskShape& disk) {
+  if (is_textured(entry)) return write_textured(writer, entry, outline_of(disk));
   return write_planar(writer, entry, "disk", {disk.radius, disk.radius, 1});
 }
 
 Status write_rect(Writer& writer, const LightEntry& entry, const RectShape& rect) {
+  if (is_textured(entry)) {
+    const double x = rect.width / 2, y = rect.height / 2;
+    return write_textured(writer, entry, {{{-x, -y}, {x, -y}, {x, y}, {-x, y}}});
+  }
   return write_planar(writer, entry, "rectangle", {rect.width / 2, rect.height / 2, 1});
 }
 
 Status write_polygon(Writer& writer, const LightEntry& entry, const PolygonShape& polygon) {
-  const Mesh mesh = polygon_mesh(polygon);
+  Mesh mesh = polygon_mesh(polygon);
+  if (is_textured(entry)) set_planar_uvs(mesh);
   if (mesh.indices.empty()) return unsupported("light '" + entry.light.name + "': the polygon crosses itself", entry.light.source);
-  return write_mesh_body(writer, entry, mesh, entry.resolved.rgb);
+  return write_mesh_body(writer, entry, std::move(mesh), entry.resolved.rgb);
 }
 
 Status write_tube(Writer& writer, const LightEntry& entry, const TubeShape& tube) {
@@ -102,6 +146,10 @@ Status write_mesh_light(Writer& writer, const LightEntry& entry, const MeshShape
   if (entry.light.surface_material && !writer.scene.meshes[shape.mesh].normals.empty()) {
     writer.losses.add(name_for_losses(entry.light) + ": smooth normals of a surface that emits",
                       "flat faces: its own light is exact, what it reflects shows its triangles");
+  }
+  if (is_textured(entry)) {
+    writer.losses.add(name_for_losses(entry.light) + ": emission texture of a mesh",
+                      "exact where every place of the picture belongs to one place of the mesh; too dark where several share it");
   }
   return write_mesh_body(writer, entry, scaled_mesh(writer.scene.meshes[shape.mesh], shape.scale), entry.resolved.rgb);
 }

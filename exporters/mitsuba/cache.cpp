@@ -26,17 +26,22 @@ Status name_by_content(pugi::xml_node node, const std::filesystem::path& folder)
 
 }  // namespace
 
-Result<std::string> key_of(const Mitsuba& mitsuba, const MitsubaJob& job) {
-  Result<std::vector<std::byte>> bytes = read_file(job.scene, largest_file);
+Result<std::string> content_of(const std::filesystem::path& scene) {
+  Result<std::vector<std::byte>> bytes = read_file(scene, largest_file);
   if (!bytes) return bytes.error();
   pugi::xml_document document;
   if (const pugi::xml_parse_result parsed = document.load_buffer(bytes->data(), bytes->size()); !parsed) {
-    return Error{"MITSUBA_FAILED", std::string("expected an XML file: ") + parsed.description(), {job.scene.string(), 0, 0, {}}, {}, {}};
+    return Error{"MITSUBA_FAILED", std::string("expected an XML file: ") + parsed.description(), {scene.string(), 0, 0, {}}, {}, {}};
   }
-  if (Status s = name_by_content(document, job.scene.parent_path()); !s) return s.error();
+  if (Status s = name_by_content(document, scene.parent_path()); !s) return s.error();
   std::ostringstream text;
   document.save(text);
-  text << '\n' << job.samples << ' ' << job.seeds << ' ' << job.first_seed << ' ' << mitsuba.variant << ' ' << mitsuba.version;
+  return digest_of(text.str());
+}
+
+std::string key_of(const Mitsuba& mitsuba, const MitsubaJob& job, const std::string& content) {
+  std::ostringstream text;
+  text << content << ' ' << job.samples << ' ' << job.seeds << ' ' << job.first_seed << ' ' << mitsuba.variant << ' ' << mitsuba.version;
   return digest_of(text.str());
 }
 

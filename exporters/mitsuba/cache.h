@@ -10,9 +10,12 @@
 
 namespace etendue::mitsuba {
 
-// Digest of the scene file with every file name in it replaced by the digest of that file, of samples, seeds, variant and version. Where
-// the files lie does not matter. Errors: FILE_UNREADABLE, MITSUBA_FAILED where the scene file is no XML.
-Result<std::string> key_of(const Mitsuba& mitsuba, const MitsubaJob& job);
+// Digest of a scene file with every file name in it replaced by the digest of that file: where the files lie does not matter. Errors:
+// FILE_UNREADABLE, MITSUBA_FAILED where the scene file is no XML.
+Result<std::string> content_of(const std::filesystem::path& scene);
+
+// Of content, samples, seeds, variant and version.
+std::string key_of(const Mitsuba& mitsuba, const MitsubaJob& job, const std::string& content);
 
 class PictureCache {
  public:

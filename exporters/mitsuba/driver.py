@@ -54,7 +54,7 @@ def render(mi, np, job, progress, index):
     for k in range(seeds):
         picture = np.zeros_like(mean)
         for p, count in enumerate(passes):
-            seed = ((job["first_seed"] + k) << 12) + p
+            seed = (job["first_seed"] + (k << 12) + p) % 2**32
             picture += np.array(mi.render(scene, spp=count, seed=seed), dtype=np.float64)[:, :, :3] * (count / samples)
             progress.add(count, index)
         delta = picture - mean

@@ -31,6 +31,11 @@ void report_window(Writer& writer, const Light& light) {
 
 void report_losses(Writer& writer, const Light& light) {
   report_window(writer, light);
+  const bool can_show_picture = std::holds_alternative<RectShape>(light.shape) || std::holds_alternative<DiskShape>(light.shape) ||
+                                std::holds_alternative<PolygonShape>(light.shape) || std::holds_alternative<MeshShape>(light.shape);
+  if (light.emission.texture && !can_show_picture) {
+    writer.losses.add(name_for_losses(light) + ": texture", "left out, as in our own evaluation: only planar and mesh lights have one");
+  }
   if (!light.visible && has_body(light.shape)) {
     writer.losses.add(name_for_losses(light) + ": invisible", "seen by the camera, and it casts shadows");
   }

@@ -98,21 +98,20 @@ void report_model(Writer& writer, const Material& material) {
   }
 }
 
-Status add_shaded(Writer& writer, pugi::xml_node parent, const Material& material, bool mirrored) {
+Status add_shaded(Writer& writer, pugi::xml_node parent, const Material& material) {
   pugi::xml_node inner = parent;
   if (material.normal_map) {
     inner = add_plugin(parent, "bsdf", "normalmap");
     add_boolean(inner, "use_shadowing_function", false);
     add_boolean(inner, "flip_invalid_normals", false);
     const NormalMap& map = *material.normal_map;
-    if (Status s = add_normal_texture(writer, inner, "normalmap", map.texture, map.scale, mirrored, name_for_losses(material)); !s)
-      return s;
+    if (Status s = add_normal_texture(writer, inner, "normalmap", map.texture, map.scale, name_for_losses(material)); !s) return s;
   }
   return add_model(writer, inner, material);
 }
 
 // mask(twosided(normalmap(model))), each only where it is needed. The outermost element carries the id.
-Status add_material(Writer& writer, const Material& material, const std::string& id, bool mirrored) {
+Status add_material(Writer& writer, const Material& material, const std::string& id) {
   pugi::xml_node inner = writer.root;
   const std::size_t before = static_cast<std::size_t>(std::distance(inner.begin(), inner.end()));
   if (has_holes(material)) {
@@ -124,7 +123,7 @@ Status add_material(Writer& writer, const Material& material, const std::string&
     }
   }
   if (material.double_sided) inner = add_plugin(inner, "bsdf", "twosided");
-  if (Status s = add_shaded(writer, inner, material, mirrored); !s) return s;
+  if (Status s = add_shaded(writer, inner, material); !s) return s;
   pugi::xml_node outermost = *std::next(writer.root.begin(), static_cast<std::ptrdiff_t>(before));
   outermost.append_attribute("id") = id.c_str();
   return Done{};
@@ -146,12 +145,12 @@ Status write_materials(Writer& writer) {
   if (std::any_of(writer.scene.objects.begin(), writer.scene.objects.end(), uses_default)) {
     Material grey;
     grey.model = Lambert{};
-    if (Status s = add_material(writer, grey, material_id(writer.scene, no_index), false); !s) return s;
+    if (Status s = add_material(writer, grey, material_id(writer.scene, no_index)); !s) return s;
   }
   for (const std::uint32_t index : used_materials(writer.scene)) {
     const Material& material = writer.scene.materials[index];
     report_model(writer, material);
-    if (Status s = add_material(writer, material, material_id(writer.scene, index), false); !s) return s;
+    if (Status s = add_material(writer, material, material_id(writer.scene, index)); !s) return s;
   }
   return Done{};
 }

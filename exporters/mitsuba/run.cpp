@@ -98,19 +98,31 @@ struct Conversation {
   }
 };
 
-nlohmann::json request_of(const Mitsuba& mitsuba, const std::vector<const MitsubaJob*>& jobs, const fs::path& scratch) {
+struct KeyedJob {
+  const MitsubaJob* job;
+  std::string content, key;
+};
+
+// Seeds are numbered 4096 apart, one for each pass, from a start that the scene's content gives: pictures of different scenes (one light
+// each) are independent of one another, and the same scene always gives the same picture.
+std::uint32_t first_number(const KeyedJob& keyed) {
+  const auto start = static_cast<std::uint32_t>(std::stoul(keyed.content.substr(0, 8), nullptr, 16));
+  return start + (keyed.job->first_seed << 12);
+}
+
+nlohmann::json request_of(const Mitsuba& mitsuba, const std::vector<KeyedJob>& jobs, const fs::path& scratch) {
   nlohmann::json request{{"variant", mitsuba.variant}, {"jobs", nlohmann::json::array()}};
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    request["jobs"].push_back({{"scene", fs::absolute(jobs[i]->scene).string()},
-                               {"samples", jobs[i]->samples},
-                               {"seeds", jobs[i]->seeds},
-                               {"first_seed", jobs[i]->first_seed},
+    request["jobs"].push_back({{"scene", fs::absolute(jobs[i].job->scene).string()},
+                               {"samples", jobs[i].job->samples},
+                               {"seeds", jobs[i].job->seeds},
+                               {"first_seed", first_number(jobs[i])},
                                {"out", (scratch / (std::to_string(i) + ".raw")).string()}});
   }
   return request;
 }
 
-Result<std::vector<Picture>> render_all(const Mitsuba& mitsuba, const std::vector<const MitsubaJob*>& jobs, Progress* progress) {
+Result<std::vector<Picture>> render_all(const Mitsuba& mitsuba, const std::vector<KeyedJob>& jobs, Progress* progress) {
   Result<fs::path> folder = make_scratch();
   if (!folder) return folder.error();
   const ScratchFolder scratch(*folder);
@@ -123,18 +135,18 @@ Result<std::vector<Picture>> render_all(const Mitsuba& mitsuba, const std::vecto
   call.arguments = {mitsuba.python.string(), "-I", "-c", mitsuba::driver_script(), request_file.string()};
   if (mitsuba.llvm) call.environment.emplace_back("DRJIT_LIBLLVM_PATH", mitsuba.llvm->string());
   call.on_line = [&](std::string_view line) { heard.hear(line); };
-  call.keep_going = [&] { return !progress || progress->report("Mitsuba: " + jobs[heard.job]->name, heard.fraction); };
+  call.keep_going = [&] { return !progress || progress->report("Mitsuba: " + jobs[heard.job].job->name, heard.fraction); };
   const Result<ProcessEnd> end = run_process(call);
   if (!end) return end.error();
   if (end->cancelled) return cancelled();
   if (end->exit_status != 0 || heard.sizes.size() != jobs.size()) {
     const std::string why = !heard.error.empty() ? heard.error : heard.last_lines;
-    return failed("Mitsuba ended with status " + std::to_string(end->exit_status) + ": " + why, jobs[heard.job]->scene);
+    return failed("Mitsuba ended with status " + std::to_string(end->exit_status) + ": " + why, jobs[heard.job].job->scene);
   }
   std::vector<Picture> pictures;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     Result<Picture> picture =
-        read_raw(scratch.path() / (std::to_string(i) + ".raw"), heard.sizes[i].first, heard.sizes[i].second, *jobs[i]);
+        read_raw(scratch.path() / (std::to_string(i) + ".raw"), heard.sizes[i].first, heard.sizes[i].second, *jobs[i].job);
     if (!picture) return picture.error();
     pictures.push_back(std::move(*picture));
   }
@@ -154,27 +166,25 @@ Status check(const MitsubaJob& job) {
 Result<std::vector<Picture>> run_mitsuba(const Mitsuba& mitsuba, const std::vector<MitsubaJob>& jobs,
                                          const std::optional<fs::path>& cache_folder, Progress* progress) {
   std::vector<Picture> pictures(jobs.size());
-  std::vector<std::string> keys(jobs.size());
-  std::vector<const MitsubaJob*> missing;
+  std::vector<KeyedJob> missing;
   const PictureCache cache(cache_folder);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     if (Status s = check(jobs[i]); !s) return s.error();
-    Result<std::string> key = mitsuba::key_of(mitsuba, jobs[i]);
-    if (!key) return key.error();
-    keys[i] = *key;
-    if (std::optional<Picture> known = cache.find(keys[i])) {
+    Result<std::string> content = mitsuba::content_of(jobs[i].scene);
+    if (!content) return content.error();
+    KeyedJob keyed{&jobs[i], *content, mitsuba::key_of(mitsuba, jobs[i], *content)};
+    if (std::optional<Picture> known = cache.find(keyed.key)) {
       pictures[i] = std::move(*known);
     } else {
-      missing.push_back(&jobs[i]);
+      missing.push_back(std::move(keyed));
     }
   }
   if (missing.empty()) return pictures;
   Result<std::vector<Picture>> rendered = render_all(mitsuba, missing, progress);
   if (!rendered) return rendered.error();
   for (std::size_t m = 0; m < missing.size(); ++m) {
-    const auto i = static_cast<std::size_t>(missing[m] - jobs.data());
-    if (Status s = cache.keep(keys[i], (*rendered)[m]); !s) return s.error();
-    pictures[i] = std::move((*rendered)[m]);
+    if (Status s = cache.keep(missing[m].key, (*rendered)[m]); !s) return s.error();
+    pictures[static_cast<std::size_t>(missing[m].job - jobs.data())] = std::move((*rendered)[m]);
   }
   return pictures;
 }

@@ -112,11 +112,10 @@ Status add_grey_texture(Writer& writer, pugi::xml_node parent, const char* name,
 }
 
 // Mitsuba's normal is normalise(2 t - 1). t' = (1 + s (2 t - 1)) / 2 scales a component by s, and, being linear, also between texels.
-Status add_normal_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, double scale, bool mirrored,
+Status add_normal_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, double scale,
                           const std::string& owner) {
-  const double scale_y = mirrored ? -scale : scale;
   Result<std::string> file = bake(writer, texture, Encoding::linear, [&](const float* p) {
-    return Rgb{(1 + scale * (2.0 * p[0] - 1)) / 2, (1 + scale_y * (2.0 * p[1] - 1)) / 2, p[2]};
+    return Rgb{(1 + scale * (2.0 * p[0] - 1)) / 2, (1 + scale * (2.0 * p[1] - 1)) / 2, p[2]};
   });
   if (!file) return file.error();
   add_boolean(add_bitmap(writer, parent, name, texture, *file, owner), "raw", true);

@@ -11,8 +11,8 @@ Status add_colour_texture(Writer& writer, pugi::xml_node parent, const char* nam
 // One channel (0 red ... 3 alpha) x factor, for a scalar parameter.
 Status add_grey_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, int channel, double factor,
                         const std::string& owner);
-// 2 x - 1 is the normal; its x and y are multiplied by `scale`. `mirrored` turns y round.
-Status add_normal_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, double scale, bool mirrored,
+// 2 x - 1 is the normal; its x and y are multiplied by `scale`.
+Status add_normal_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, double scale,
                           const std::string& owner);
 // 1 where alpha x factor >= cutoff, else 0.
 Status add_cutout_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, double factor, double cutoff,
