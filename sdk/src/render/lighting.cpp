@@ -1,0 +1,157 @@
+#include "lighting.h"
+#include "hashing.h"
+
+#include <array>
+#include <cmath>
+
+namespace etendue::rendering {
+namespace {
+
+constexpr int dimensions = 6;  // pixel, light, BRDF: two each
+
+// Additive recurrence with the powers of 1/phi, phi the root of phi^7 = phi + 1 (Roberts 2018, "The unreasonable effectiveness of
+// quasirandom sequences"), shifted at random: every point is uniform, so the estimate has no bias, and the points keep their distance.
+class Sequence {
+ public:
+  explicit Sequence(std::uint64_t seed) {
+    Random random(seed);
+    for (double& s : place_) s = random.next();
+  }
+  std::array<double, dimensions> next() {
+    static const std::array<double, dimensions> steps = [] {
+      double phi = 1;
+      for (int i = 0; i < 64; ++i) phi = std::pow(1 + phi, 1.0 / (dimensions + 1));
+      std::array<double, dimensions> s{};
+      double power = 1;
+      for (double& step : s) step = power /= phi;
+      return s;
+    }();
+    const std::array<double, dimensions> out = place_;
+    for (std::size_t i = 0; i < dimensions; ++i) {
+      place_[i] += steps[i];
+      if (place_[i] >= 1) place_[i] -= 1;
+    }
+    return out;
+  }
+
+ private:
+  std::array<double, dimensions> place_{};
+};
+
+Rgb squared(const Rgb& c) { return c * c; }
+double sum(const Rgb& c) { return c.x + c.y + c.z; }
+
+// A shading point with its frame: directions of the world in, reflected parts out.
+class Reflector {
+ public:
+  explicit Reflector(const eval::ShadingPoint& point) : point_(point), frame_(basis_around(point.normal)), view_(local(point.view)) {}
+
+  // BRDF times cosine; 0 below either horizon.
+  Rgb brdf_cos(const Vec3d& direction) const {
+    if (dot(direction, point_.surface_normal) <= 0) return {};
+    return eval::brdf_cos(point_.brdf, view_, local(direction));
+  }
+  double pdf(const Vec3d& direction) const { return eval::pdf_brdf(point_.brdf, view_, local(direction)); }
+  // pdf 0: none
+  eval::DirectionSample choose(const Vec2d& u) const {
+    eval::DirectionSample s = eval::sample_brdf(point_.brdf, view_, u);
+    s.direction = frame_.tangent * s.direction.x + frame_.bitangent * s.direction.y + frame_.normal * s.direction.z;
+    return s;
+  }
+
+ private:
+  Vec3d local(const Vec3d& v) const { return {dot(frame_.tangent, v), dot(frame_.bitangent, v), dot(frame_.normal, v)}; }
+
+  const eval::ShadingPoint& point_;
+  Basis frame_;
+  Vec3d view_;
+};
+
+// Sums over one replicate.
+struct Sums {
+  Rgb visible, all;
+};
+
+}  // namespace
+
+Rgb Lighting::emitted(const StageLight& light, const std::optional<SurfacePoint>& point, const Ray& ray) const {
+  const bool met = point ? point->thing == light.thing : light.background;
+  return met ? eval::light_along(light.as_seen, ray.origin, ray.direction).radiance : Rgb{};
+}
+
+Rgb Lighting::reflected(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
+                        RayCounts& counts) const {
+  const auto shading = shading_point(stage_.thing(point.thing).paint, point, view);
+  if (!shading) return {};
+  if (!light.delta) {
+    const eval::Estimate estimate = eval::reference(light.emitter, *shading, tolerance);
+    counts.evaluations += estimate.evaluations;
+    return estimate.value;
+  }
+  const eval::LightSample sample = delta_light(light, point.position);
+  if (sample.pdf <= 0) return {};
+  const Rgb value = Reflector(*shading).brdf_cos(sample.direction) * sample.radiance;
+  ++counts.evaluations;
+  if (value == Rgb{}) return {};
+  ++counts.shadow;
+  return stage_.blocked(point, sample.direction, sample.distance, light.thing) ? Rgb{} : value;
+}
+
+std::optional<SurfacePoint> Lighting::target_point(const PixelTarget& target, const Ray& ray, RayCounts& counts) const {
+  if (target.plane == nullptr) {
+    ++counts.primary;
+    return stage_.first(ray);
+  }
+  SurfacePoint point = *target.plane;
+  point.distance = dot(point.geometric_normal, point.position - ray.origin) / dot(point.geometric_normal, ray.direction);
+  point.position = ray.origin + ray.direction * point.distance;
+  return point;
+}
+
+Sampled Lighting::sample(const StageLight& light, const PixelTarget& target, double beta, int points_a_replicate, std::uint64_t seed,
+                         RayCounts& counts) const {
+  Sampled result;
+  std::array<Rgb, replicates> estimates;
+  const std::uint32_t own = light.convex ? light.thing : no_index;
+  for (std::size_t r = 0; r < replicates; ++r) {
+    Sequence sequence(mixed(seed) + r);
+    Sums sums;
+    for (int i = 0; i < points_a_replicate; ++i) {
+      const auto u = sequence.next();
+      const Ray ray = camera_.through(target.x + u[0], target.y + u[1]);
+      const std::optional<SurfacePoint> point = target_point(target, ray, counts);
+      if (!point) continue;
+      const auto shading = shading_point(stage_.thing(point->thing).paint, *point, -ray.direction);
+      if (!shading) continue;
+      const Reflector reflector(*shading);
+      const auto add = [&](const Vec3d& direction, double distance, const Rgb& value) {
+        if (value == Rgb{}) return;
+        sums.all += value;
+        ++counts.shadow;
+        if (!stage_.blocked(*point, direction, distance, own)) sums.visible += value;
+      };
+      // Both strategies, one sample each; the balance heuristic (Veach 1997, section 9.2.2) divides by the sum of their densities.
+      const bool both = light.background || !std::holds_alternative<Lambert>(shading->brdf);
+      const eval::LightSample towards = eval::sample_light(light.emitter, point->position, {u[2], u[3]});
+      ++counts.evaluations;
+      if (towards.pdf > 0) {
+        const double density = towards.pdf + (both && !towards.delta ? reflector.pdf(towards.direction) : 0);
+        add(towards.direction, towards.distance, reflector.brdf_cos(towards.direction) * towards.radiance / density);
+      }
+      if (!both || towards.delta) continue;
+      const eval::DirectionSample reflection = reflector.choose({u[4], u[5]});
+      if (reflection.pdf <= 0) continue;
+      const eval::LightSample met = eval::light_along(light.emitter, point->position, reflection.direction);
+      if (met.radiance == Rgb{}) continue;
+      add(reflection.direction, met.distance, reflector.brdf_cos(reflection.direction) * met.radiance / (met.pdf + reflection.pdf));
+    }
+    estimates[r] = (sums.visible - sums.all * beta) / static_cast<double>(points_a_replicate);
+    result.mean += estimates[r] / static_cast<double>(replicates);
+    result.visible_sum += sum(sums.visible);
+    result.all_sum += sum(sums.all);
+  }
+  for (const Rgb& e : estimates) result.variance += squared(e - result.mean) / static_cast<double>(replicates * (replicates - 1));
+  return result;
+}
+
+}  // namespace etendue::rendering

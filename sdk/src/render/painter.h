@@ -1,0 +1,72 @@
+// One light's part of the picture. The method and its error estimates are derived in sdk/docs/rendering.md.
+#pragma once
+
+#include "lighting.h"
+#include "rows.h"
+#include "survey.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace etendue::rendering {
+
+struct PainterOptions {
+  std::uint32_t width = 0, height = 0;
+  double expected_noise = 0.01;
+  std::uint64_t seed = 1;
+};
+
+class LightPainter {
+ public:
+  LightPainter(const Stage& stage, const PinholeCamera& camera, const Survey& survey, const StageLight& light,
+               const PainterOptions& options);
+
+  static constexpr std::size_t passes = 3;
+  // Fills width x height values and variances. False: cancelled.
+  bool run(RowRunner& rows);
+  const std::vector<Rgb>& value() const { return value_; }
+  const std::vector<Rgb>& variance() const { return variance_; }
+
+ private:
+  struct Measured {
+    Rgb value, variance;
+  };
+  // What the pilot samples around a pixel, its own left out, say about shadows there.
+  struct Surroundings {
+    double beta = 1;
+    bool mixed = false;
+  };
+
+  double typical_luminance() const;
+  void pilot_row(std::uint32_t row, RayCounts& counts);
+  void centre_row(std::uint32_t row, RayCounts& counts);
+  void paint_row(std::uint32_t row, RayCounts& counts);
+  Surroundings surroundings(std::uint32_t x, std::uint32_t y) const;
+  bool centre_is_needed(std::uint32_t x, std::uint32_t y) const;
+  bool is_plain(const std::optional<SurfacePoint>& point) const;
+  PixelTarget target(std::uint32_t x, std::uint32_t y, const SurfacePoint* plane) const;
+  Rgb at(double x, double y, double beta, RayCounts& counts) const;
+  Measured smooth(std::uint32_t x, std::uint32_t y, double beta, const std::optional<SurfacePoint>& centre, RayCounts& counts) const;
+  Measured split(const Regions& regions, double beta, RayCounts& counts) const;
+  Measured stratified(std::uint32_t x, std::uint32_t y, double beta, int side, RayCounts& counts) const;
+  Measured sampled(std::uint32_t x, std::uint32_t y, const Surroundings& around, const std::optional<SurfacePoint>& centre,
+                   RayCounts& counts) const;
+  std::optional<Rgb> curvature(std::uint32_t x, std::uint32_t y) const;
+  std::size_t index(std::uint32_t x, std::uint32_t y) const { return std::size_t{y} * options_.width + x; }
+  std::uint64_t seed(std::size_t pixel, std::uint64_t purpose) const;
+
+  const Stage& stage_;
+  const PinholeCamera& camera_;
+  const Survey& survey_;
+  const StageLight& light_;
+  PainterOptions options_;
+  Lighting lighting_;
+  eval::Tolerance tolerance_;
+  bool shadows_;                      // something may stand in the light's way
+  std::vector<float> visible_, all_;  // pilot: light with and without shadows
+  std::vector<Rgb> centre_;           // unblocked light at the centres of smooth pixels
+  std::vector<std::uint8_t> known_;   // where centre_ holds something
+  std::vector<Rgb> value_, variance_;
+};
+
+}  // namespace etendue::rendering

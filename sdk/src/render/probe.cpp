@@ -1,0 +1,64 @@
+#include "probe.h"
+#include "hashing.h"
+
+#include <cmath>
+
+namespace etendue::rendering {
+namespace {
+
+constexpr std::uint64_t nothing_key = 1;
+
+// Both on a curved surface: a step from one to the other must run along the surface, and the surface must not turn away meanwhile.
+bool continuous(const SurfacePoint& a, const SurfacePoint& b) {
+  if (a.flat && b.flat) return true;
+  constexpr double most_rise = 0.7, least_cosine = 0.5;
+  const Vec3d step = b.position - a.position;
+  const double rise = most_rise * length(step);
+  return std::abs(dot(step, a.geometric_normal)) <= rise && std::abs(dot(step, b.geometric_normal)) <= rise &&
+         dot(a.normal, b.normal) >= least_cosine;
+}
+
+// 0: dark, 1: lit, 2: lit within the inner cone of a spot (the falloff has a kink there).
+std::uint64_t state_of(const StageLight& light, const Stage& stage, const SurfacePoint& point, double side, RayCounts& counts) {
+  const eval::LightSample sample = delta_light(light, point.position);
+  if (sample.pdf <= 0 || sample.radiance == Rgb{}) return 0;
+  if (side * dot(point.normal, sample.direction) <= 0) return 0;
+  ++counts.shadow;
+  if (stage.blocked(point, sample.direction, sample.distance, light.thing)) return 0;
+  if (const auto* punctual = std::get_if<eval::PunctualEmitter>(&light.emitter.shape)) {
+    if (const auto* spot = std::get_if<SpotShape>(&punctual->shape)) {
+      return dot(punctual->frame.columns[2], sample.direction) > std::cos(spot->inner_rad) ? 2 : 1;
+    }
+  }
+  return 1;
+}
+
+}  // namespace
+
+bool same(const Probe& a, const Probe& b) {
+  if (a.key != b.key) return false;
+  return !a.point || !b.point || continuous(*a.point, *b.point);
+}
+
+Probe Prober::look(double x, double y, RayCounts& counts) const {
+  const Ray ray = camera_.through(x, y);
+  ++counts.primary;
+  Probe probe{nothing_key, stage_.first(ray)};
+  if (!probe.point) return probe;
+  const SurfacePoint& point = *probe.point;
+  const double side = dot(point.normal, ray.direction) < 0 ? 1 : -1;
+  probe.key = mixed(mixed(point.thing + 2) ^ point.part);
+  probe.key = mixed(probe.key ^ (side > 0 ? 1u : 0u));
+  const Paint* paint = stage_.thing(point.thing).paint;
+  if (paint == nullptr || (side < 0 && !paint->material.double_sided)) return probe;
+  for (const StageLight& light : stage_.lights()) {
+    if (light.delta) probe.key = mixed(probe.key ^ state_of(light, stage_, point, side, counts));
+  }
+  return probe;
+}
+
+eval::LightSample delta_light(const StageLight& light, const Vec3d& position) {
+  return eval::sample_light(light.emitter, position, {0.5, 0.5});
+}
+
+}  // namespace etendue::rendering

@@ -1,0 +1,192 @@
+#include "regions.h"
+#include "hashing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace etendue::rendering {
+namespace {
+
+constexpr int places_on_a_line = 9;
+constexpr double narrowest = 1e-5;  // pixels: how well an edge is located on a scanline
+constexpr int first_lines = 4, most_lines = 32;
+constexpr std::uint32_t nodes_where_shading_varies = 8;
+
+struct Look {
+  double s;  // along the scanline, 0 to 1
+  Probe probe;
+};
+// A stretch of a scanline without a discontinuity.
+struct Piece {
+  double begin, end;
+  double across;  // the scanline's place
+  std::uint64_t key;
+  bool varies;  // curved or textured: one place cannot stand for all
+};
+
+class Scanner {
+ public:
+  Scanner(const Prober& prober, const Stage& stage, std::uint32_t x, std::uint32_t y, bool along_x, RayCounts& counts)
+      : prober_(prober), stage_(stage), x_(x), y_(y), along_x_(along_x), counts_(counts) {}
+
+  Vec2d place(double along, double across) const { return along_x_ ? Vec2d{x_ + along, y_ + across} : Vec2d{x_ + across, y_ + along}; }
+
+  void scan(double across, std::vector<Piece>& pieces) const {
+    Look left = look(0, across);
+    double begin = 0;
+    for (int i = 1; i < places_on_a_line; ++i) {
+      Look right = look(static_cast<double>(i) / (places_on_a_line - 1), across);
+      split(left, right, across, begin, pieces);
+      left = std::move(right);
+    }
+    close(begin, 1, across, left.probe, pieces);
+  }
+
+  Probe look_at(double along, double across) const { return look(along, across).probe; }
+
+ private:
+  Look look(double along, double across) const {
+    const Vec2d p = place(along, across);
+    return {along, prober_.look(p.x, p.y, counts_)};
+  }
+
+  // Finds what lies between two places: bisection towards the edge, both halves if the middle is a third thing.
+  void split(const Look& left, const Look& right, double across, double& begin, std::vector<Piece>& pieces) const {
+    if (same(left.probe, right.probe)) return;
+    Look a = left, b = right;
+    while (b.s - a.s > narrowest) {
+      Look middle = look((a.s + b.s) / 2, across);
+      if (same(a.probe, middle.probe)) {
+        a = std::move(middle);
+      } else if (same(b.probe, middle.probe)) {
+        b = std::move(middle);
+      } else {
+        split(a, middle, across, begin, pieces);
+        a = std::move(middle);
+      }
+    }
+    const double edge = (a.s + b.s) / 2;
+    close(begin, edge, across, a.probe, pieces);
+    begin = edge;
+  }
+
+  void close(double begin, double end, double across, const Probe& probe, std::vector<Piece>& pieces) const {
+    if (end > begin) pieces.push_back({begin, end, across, probe.key, varies(probe)});
+  }
+
+  bool varies(const Probe& probe) const {
+    if (!probe.point) return true;
+    const Paint* paint = stage_.thing(probe.point->thing).paint;
+    return !probe.point->flat || (paint != nullptr && paint->textured());
+  }
+
+  const Prober& prober_;
+  const Stage& stage_;
+  std::uint32_t x_, y_;
+  bool along_x_;
+  RayCounts& counts_;
+};
+
+// Scanlines should cross the edges: they run along x if the corners differ more from left to right than from top to bottom.
+bool runs_along_x(const Prober& prober, std::uint32_t x, std::uint32_t y, RayCounts& counts) {
+  const Probe a = prober.look(x, y, counts), b = prober.look(x + 1.0, y, counts);
+  const Probe c = prober.look(x, y + 1.0, counts), d = prober.look(x + 1.0, y + 1.0, counts);
+  const int horizontal = !same(a, b) + !same(c, d), vertical = !same(a, c) + !same(b, d);
+  return horizontal >= vertical;
+}
+
+std::map<std::uint64_t, double> areas_of(const std::vector<Piece>& pieces, int lines) {
+  std::map<std::uint64_t, double> areas;
+  for (const Piece& p : pieces) areas[p.key] += (p.end - p.begin) / lines;
+  return areas;
+}
+
+double largest_difference(const std::map<std::uint64_t, double>& a, const std::map<std::uint64_t, double>& b) {
+  double most = 0;
+  for (const auto& [key, area] : a) {
+    const auto other = b.find(key);
+    most = std::max(most, std::abs(area - (other == b.end() ? 0 : other->second)));
+  }
+  for (const auto& [key, area] : b) {
+    if (a.find(key) == a.end()) most = std::max(most, area);
+  }
+  return most;
+}
+
+// One node at the region's centroid if that is inside the region (shading is linear there as far as a pixel can tell).
+void add_centroid(const Scanner& scanner, const std::vector<Piece>& pieces, double area, std::uint32_t region, std::vector<Node>& nodes) {
+  Vec2d centroid;
+  double total = 0;
+  for (const Piece& p : pieces) {
+    const double size = p.end - p.begin;
+    centroid.x += size * (p.begin + p.end) / 2;
+    centroid.y += size * p.across;
+    total += size;
+  }
+  centroid = {centroid.x / total, centroid.y / total};
+  Vec2d chosen = centroid;
+  if (scanner.look_at(centroid.x, centroid.y).key != pieces.front().key) {
+    const auto distance = [&](const Piece& p) { return std::hypot((p.begin + p.end) / 2 - centroid.x, p.across - centroid.y); };
+    const Piece& nearest =
+        *std::min_element(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) { return distance(a) < distance(b); });
+    chosen = {(nearest.begin + nearest.end) / 2, nearest.across};
+  }
+  const Vec2d place = scanner.place(chosen.x, chosen.y);
+  nodes.push_back({place.x, place.y, area, region});
+}
+
+// Stratified along the scanlines laid end to end.
+void add_stratified(const Scanner& scanner, const std::vector<Piece>& pieces, double area, std::uint32_t region, Random& random,
+                    std::vector<Node>& nodes) {
+  double total = 0;
+  for (const Piece& p : pieces) total += p.end - p.begin;
+  const std::uint32_t count = nodes_where_shading_varies;
+  std::size_t piece = 0;
+  double passed = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double target = (i + random.next()) / count * total;
+    while (piece + 1 < pieces.size() && passed + (pieces[piece].end - pieces[piece].begin) < target) {
+      passed += pieces[piece].end - pieces[piece].begin;
+      ++piece;
+    }
+    const Piece& p = pieces[piece];
+    const Vec2d place = scanner.place(std::clamp(p.begin + target - passed, p.begin, p.end), p.across);
+    nodes.push_back({place.x, place.y, area / count, region});
+  }
+}
+
+}  // namespace
+
+Regions regions_of(const Prober& prober, const Stage& stage, std::uint32_t x, std::uint32_t y, double tolerance, std::uint64_t seed,
+                   RayCounts& counts) {
+  const Scanner scanner(prober, stage, x, y, runs_along_x(prober, x, y, counts), counts);
+  std::vector<Piece> pieces;
+  std::map<std::uint64_t, double> areas;
+  Regions regions;
+  // The midpoint rule over scanlines: an edge that leaves through a side of the pixel costs O(1 / lines^2), so doubling divides by 4.
+  for (int lines = first_lines; lines <= most_lines; lines *= 2) {
+    pieces.clear();
+    for (int i = 0; i < lines; ++i) scanner.scan((i + 0.5) / lines, pieces);
+    std::map<std::uint64_t, double> finer = areas_of(pieces, lines);
+    const double difference = largest_difference(areas, finer);
+    areas = std::move(finer);
+    regions.area_error = difference / 3;
+    if (lines > first_lines && difference < tolerance) break;
+  }
+  Random random(seed);
+  std::uint32_t number = 0;
+  for (const auto& [key, area] : areas) {
+    std::vector<Piece> own;
+    std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(own), [key = key](const Piece& p) { return p.key == key; });
+    if (std::any_of(own.begin(), own.end(), [](const Piece& p) { return p.varies; })) {
+      add_stratified(scanner, own, area, number, random, regions.nodes);
+    } else {
+      add_centroid(scanner, own, area, number, regions.nodes);
+    }
+    ++number;
+  }
+  return regions;
+}
+
+}  // namespace etendue::rendering

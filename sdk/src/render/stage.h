@@ -1,0 +1,69 @@
+// A scene made ready for rays: everything in the world, textures decoded, lights as emitters.
+#pragma once
+
+#include "surface.h"
+
+#include "etendue/render.h"
+
+#include <deque>
+#include <string>
+
+namespace etendue::rendering {
+
+struct StageLight {
+  std::uint32_t index = 0;  // into Scene::lights
+  std::string layer;        // "light.NAME"
+  eval::Emitter emitter;
+  eval::Emitter as_seen;           // without window: what the camera meets
+  std::uint32_t thing = no_index;  // its visible shape
+  bool delta = false;              // one direction a point: punctual and true directions
+  bool analytic = true;            // eval::reference is exact and cheap enough; else sampled alone
+  bool convex = true;              // cannot hide a part of its own front from anybody
+  bool background = false;         // environment
+};
+
+class Stage {
+ public:
+  // Errors as render().
+  static Result<std::unique_ptr<Stage>> build(const Scene& scene, const RenderOptions& options, Diagnostics& diagnostics);
+
+  // The nearest surface; holes of paints are passed through.
+  std::optional<SurfacePoint> first(const Ray& ray) const;
+  // Whether anything stands between a point and a place `distance` away. `normal`: the true surface's, either side. `skip`: a convex light.
+  bool blocked(const SurfacePoint& from, const Vec3d& direction, double distance, std::uint32_t skip) const;
+
+  const Thing& thing(std::uint32_t number) const { return things_[number]; }
+  const std::vector<StageLight>& lights() const { return lights_; }  // those that emit
+  std::uint64_t images_decoded() const { return images_.size(); }
+  // False where nothing but the light itself could stand in its way.
+  bool can_be_blocked(const StageLight& light) const;
+
+ private:
+  Stage() = default;
+  Status add_objects(const Scene& scene, bool mitsuba_model);
+  Status add_lights(const Scene& scene, const RenderOptions& options);
+  Status add_light(const Scene& scene, std::uint32_t index, bool lit, bool mitsuba_model);
+  Result<const DecodedImage*> image(const Scene& scene, const Texture& texture);
+  Result<const Paint*> paint(const Scene& scene, std::uint32_t material, bool mitsuba_model);
+  Thing& add_thing();
+  Result<eval::Emitter> emitter(const Scene& scene, const Light& light);
+
+  struct Image {
+    std::uint32_t index;
+    Encoding encoding;
+    std::unique_ptr<DecodedImage> pixels;
+  };
+  struct NamedPaint {
+    std::uint32_t material;
+    Paint paint;
+  };
+  std::deque<Thing> things_;
+  std::deque<NamedPaint> paints_;
+  std::deque<Image> images_;
+  std::vector<StageLight> lights_;
+  Rays rays_;
+  bool holes_ = false;
+  double offset_ = 0;  // how far above a surface a shadow ray starts, in metres
+};
+
+}  // namespace etendue::rendering

@@ -1,0 +1,138 @@
+#include "surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etendue::rendering {
+namespace {
+
+template <class T>
+T interpolated(const std::vector<T>& values, const std::array<std::uint32_t, 3>& corner, double u, double v) {
+  return values[corner[0]] * (1 - u - v) + values[corner[1]] * u + values[corner[2]] * v;
+}
+
+// Solves p_b - p_a = du1 dp/du + dv1 dp/dv and the same for c; without usable texture coordinates there is no tangent.
+Vec3d tangent_of(const Vec3d& e1, const Vec3d& e2, Vec2d a, Vec2d b, Vec2d c) {
+  const double du1 = b.x - a.x, dv1 = b.y - a.y, du2 = c.x - a.x, dv2 = c.y - a.y;
+  const double determinant = du1 * dv2 - dv1 * du2;
+  if (determinant == 0) return {};
+  return (e1 * dv2 - e2 * dv1) / determinant;
+}
+
+void fill_from_mesh(const WorldMesh& mesh, const Hit& hit, SurfacePoint& out) {
+  const auto& corner = mesh.triangles.corners[hit.triangle];
+  const auto& positions = mesh.triangles.positions;
+  const Vec3d a = positions[corner[0]];
+  const Vec3d e1 = positions[corner[1]] - a, e2 = positions[corner[2]] - a;
+  out.geometric_normal = normalised(cross(e1, e2));
+  out.normal = out.geometric_normal;
+  out.flat = true;
+  if (!mesh.normals.empty()) {
+    const Vec3d smooth = normalised(interpolated(mesh.normals, corner, hit.u, hit.v));
+    if (dot(smooth, smooth) > 0) out.normal = smooth;
+    for (const std::uint32_t i : corner) out.flat = out.flat && dot(mesh.normals[i], out.geometric_normal) > 1 - 1e-12;
+  }
+  if (!mesh.uvs.empty()) {
+    const Vec2d ua = mesh.uvs[corner[0]], ub = mesh.uvs[corner[1]], uc = mesh.uvs[corner[2]];
+    const double w = 1 - hit.u - hit.v;
+    out.uv = {ua.x * w + ub.x * hit.u + uc.x * hit.v, ua.y * w + ub.y * hit.u + uc.y * hit.v};
+    out.tangent = tangent_of(e1, e2, ua, ub, uc);
+  }
+  out.part = mesh.group[hit.triangle];
+}
+
+// u turns from +Z to +X around +Y, v falls from +Y, as in a tessellated sphere.
+void fill_from_shape(const Thing& thing, SurfacePoint& out) {
+  out.geometric_normal = out.normal = normal_at(*thing.shape, out.position);
+  out.flat = !std::holds_alternative<eval::SphereEmitter>(*thing.shape) && !std::holds_alternative<eval::TubeEmitter>(*thing.shape);
+  if (!thing.object) return;
+  const auto& frame = thing.shape_frame.columns;
+  const Vec3d n{dot(frame[0], out.normal), dot(frame[1], out.normal), dot(frame[2], out.normal)};
+  const double azimuth = std::atan2(n.x, n.z);
+  out.uv = {(azimuth < 0 ? azimuth + 2 * pi : azimuth) / (2 * pi), std::acos(std::clamp(n.y, -1.0, 1.0)) / pi};
+  out.tangent = thing.shape_frame.vector({n.z, 0, -n.x});
+}
+
+double channel(const DecodedImage* image, const std::optional<Texture>& texture, Vec2d uv, double Rgba::*which) {
+  return image == nullptr ? 1.0 : sample(*image, *texture, uv).*which;
+}
+
+struct Resolve {
+  const Rgb& base_colour;
+  double metallic, roughness;  // factors from the texture
+  eval::Brdf operator()(const Lambert&) const { return Lambert{base_colour}; }
+  eval::Brdf operator()(const Principled& m) const {
+    return Principled{base_colour, m.metallic * metallic, m.roughness * roughness, m.specular};
+  }
+  eval::Brdf operator()(const Standard& m) const {
+    return Standard{base_colour, m.metal * metallic, m.roughness * roughness, m.reflectance};
+  }
+  eval::Brdf operator()(const Conductor& m) const { return m; }
+  eval::Brdf operator()(const MetalRough& m) const {
+    return MetalRough{base_colour, m.metallic * metallic, m.roughness * roughness, m.ior};
+  }
+};
+
+eval::Brdf brdf_at(const Paint& paint, Vec2d uv) {
+  const double metallic = channel(paint.metal_rough, paint.material.metal_rough_texture, uv, &Rgba::b);
+  const double roughness = channel(paint.metal_rough, paint.material.metal_rough_texture, uv, &Rgba::g);
+  return std::visit(Resolve{base_colour_at(paint, uv), metallic, roughness}, paint.material.model);
+}
+
+// The normal map's vector in the frame (s, t, n): s is the tangent made perpendicular to the interpolated normal, t = n x s. On the back of
+// a surface the frame is mirrored in its plane, as Mitsuba's `twosided` does: s and t stay.
+Vec3d perturbed(const Paint& paint, const SurfacePoint& point, double side) {
+  const Rgba texel = sample(*paint.normal, paint.material.normal_map->texture, point.uv);
+  const double scale = paint.material.normal_map->scale;
+  const Vec3d local = normalised(Vec3d{(2 * texel.r - 1) * scale, (2 * texel.g - 1) * scale, 2 * texel.b - 1});
+  const Vec3d s = normalised(point.tangent - point.normal * dot(point.normal, point.tangent));
+  if (dot(s, s) == 0 || dot(local, local) == 0) return point.normal * side;
+  return normalised(s * local.x + cross(point.normal, s) * local.y + point.normal * (side * local.z));
+}
+
+}  // namespace
+
+SurfacePoint surface_point(const Thing& thing, const Ray& ray, const Hit& hit) {
+  SurfacePoint out;
+  out.thing = hit.thing;
+  out.distance = hit.t;
+  out.position = ray.origin + ray.direction * hit.t;
+  if (thing.shape) {
+    fill_from_shape(thing, out);
+  } else {
+    fill_from_mesh(thing.mesh, hit, out);
+  }
+  return out;
+}
+
+bool is_hole(const Paint& paint, Vec2d uv) {
+  if (!paint.has_holes()) return false;
+  const double alpha = paint.material.base_alpha * channel(paint.base_colour, paint.material.base_colour_texture, uv, &Rgba::a);
+  return alpha < *paint.material.alpha_cutoff;
+}
+
+Rgb base_colour_at(const Paint& paint, Vec2d uv) {
+  const Rgb factor = std::visit(
+      [](const auto& m) {
+        if constexpr (requires { m.base_colour; })
+          return m.base_colour;
+        else
+          return Rgb{1, 1, 1};
+      },
+      paint.material.model);
+  if (paint.base_colour == nullptr) return factor;
+  const Rgba texel = sample(*paint.base_colour, *paint.material.base_colour_texture, uv);
+  return factor * Rgb{texel.r, texel.g, texel.b};
+}
+
+std::optional<eval::ShadingPoint> shading_point(const Paint* paint, const SurfacePoint& point, const Vec3d& view) {
+  if (paint == nullptr) return std::nullopt;
+  const double cosine = dot(view, point.normal);
+  if (cosine == 0 || (cosine < 0 && !paint->material.double_sided)) return std::nullopt;
+  const double side = cosine > 0 ? 1 : -1;
+  const Vec3d surface_normal = point.normal * side;
+  const Vec3d normal = paint->normal != nullptr ? perturbed(*paint, point, side) : surface_normal;
+  return eval::ShadingPoint{point.position, normal, surface_normal, view, brdf_at(*paint, point.uv)};
+}
+
+}  // namespace etendue::rendering

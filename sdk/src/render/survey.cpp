@@ -1,0 +1,92 @@
+#include "survey.h"
+#include "hashing.h"
+
+#include <algorithm>
+
+namespace etendue::rendering {
+namespace {
+
+constexpr int first_probes = 4, further_probes = 8;  // at random places, beside the corners and the centre
+
+}  // namespace
+
+Survey::Survey(const Stage& stage, const PinholeCamera& camera, const SurveyOptions& options)
+    : stage_(stage),
+      prober_(stage, camera),
+      options_(options),
+      keys_(std::size_t{options.width} * options.height),
+      suspected_(keys_.size()),
+      split_(keys_.size()),
+      emitter_(keys_.size()),
+      regions_(keys_.size()) {}
+
+bool Survey::run(RowRunner& rows) {
+  return rows.run([this](std::uint32_t row, RayCounts& counts) { look_first(row, counts); }) &&
+         rows.run([this](std::uint32_t row, RayCounts& counts) { look_again(row, counts); });
+}
+
+bool Survey::is_emitter(const Probe& probe) const {
+  if (probe.point) return stage_.thing(probe.point->thing).light.has_value();
+  return std::any_of(stage_.lights().begin(), stage_.lights().end(), [](const StageLight& l) { return l.background; });
+}
+
+void Survey::look_first(std::uint32_t row, RayCounts& counts) {
+  const auto corners = [&](std::uint32_t y) {
+    std::vector<Probe> line;
+    line.reserve(options_.width + 1);
+    for (std::uint32_t x = 0; x <= options_.width; ++x) line.push_back(prober_.look(x, y, counts));
+    return line;
+  };
+  const std::vector<Probe> above = corners(row), below = corners(row + 1);
+  for (std::uint32_t x = 0; x < options_.width; ++x) {
+    const std::size_t pixel = std::size_t{row} * options_.width + x;
+    const Probe centre = prober_.look(x + 0.5, row + 0.5, counts);
+    keys_[pixel] = centre.key;
+    bool uniform = true, emitter = is_emitter(centre);
+    const auto compare = [&](const Probe& other) {
+      uniform = uniform && same(centre, other);
+      emitter = emitter || is_emitter(other);
+    };
+    for (const Probe* corner : {&above[x], &above[x + 1], &below[x], &below[x + 1]}) compare(*corner);
+    Random random(mixed(options_.seed) ^ pixel);
+    for (int i = 0; i < first_probes; ++i) {
+      const double u = random.next(), v = random.next();
+      compare(prober_.look(x + u, row + v, counts));
+    }
+    suspected_[pixel] = uniform ? 0 : 1;
+    emitter_[pixel] = emitter ? 1 : 0;
+  }
+}
+
+bool Survey::near_an_edge(std::uint32_t x, std::uint32_t y) const {
+  for (std::uint32_t j = y > 0 ? y - 1 : 0; j <= std::min(y + 1, options_.height - 1); ++j) {
+    for (std::uint32_t i = x > 0 ? x - 1 : 0; i <= std::min(x + 1, options_.width - 1); ++i) {
+      if (suspected_[std::size_t{j} * options_.width + i] != 0) return true;
+    }
+  }
+  return false;
+}
+
+// Beside an edge a closer look: something narrow may have been missed between the first probes.
+void Survey::look_again(std::uint32_t row, RayCounts& counts) {
+  for (std::uint32_t x = 0; x < options_.width; ++x) {
+    const std::size_t pixel = std::size_t{row} * options_.width + x;
+    bool split = suspected_[pixel] != 0;
+    if (!split && near_an_edge(x, row)) {
+      const Probe centre = prober_.look(x + 0.5, row + 0.5, counts);
+      Random random(mixed(options_.seed + 1) ^ pixel);
+      for (int i = 0; i < further_probes && !split; ++i) {
+        const double u = random.next(), v = random.next();
+        const Probe other = prober_.look(x + u, row + v, counts);
+        split = !same(centre, other);
+        if (is_emitter(other)) emitter_[pixel] = 1;
+      }
+    }
+    if (!split) continue;
+    split_[pixel] = 1;
+    const std::uint64_t seed = mixed(options_.seed + 2) ^ pixel;
+    regions_[pixel] = std::make_unique<Regions>(regions_of(prober_, stage_, x, row, options_.area_tolerance, seed, counts));
+  }
+}
+
+}  // namespace etendue::rendering

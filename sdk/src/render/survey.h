@@ -1,0 +1,47 @@
+// What each pixel shows, before any light is computed: one smooth surface, or regions.
+#pragma once
+
+#include "regions.h"
+#include "rows.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace etendue::rendering {
+
+struct SurveyOptions {
+  std::uint32_t width = 0, height = 0;
+  double area_tolerance = 1e-3;
+  std::uint64_t seed = 1;
+};
+
+class Survey {
+ public:
+  Survey(const Stage& stage, const PinholeCamera& camera, const SurveyOptions& options);
+
+  static constexpr std::size_t passes = 2;
+  // False: cancelled.
+  bool run(RowRunner& rows);
+
+  // Null: one thing fills the pixel, and nothing discontinuous was found in it.
+  const Regions* regions(std::size_t pixel) const { return split_[pixel] ? regions_[pixel].get() : nullptr; }
+  // Equal for smooth pixels that show the same part of the same thing with the same punctual lights on it.
+  std::uint64_t key(std::size_t pixel) const { return keys_[pixel]; }
+  bool touches_emitter(std::size_t pixel) const { return emitter_[pixel] != 0; }
+
+ private:
+  void look_first(std::uint32_t row, RayCounts& counts);
+  void look_again(std::uint32_t row, RayCounts& counts);
+  bool near_an_edge(std::uint32_t x, std::uint32_t y) const;
+  bool is_emitter(const Probe& probe) const;
+
+  const Stage& stage_;
+  Prober prober_;
+  SurveyOptions options_;
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::uint8_t> suspected_, split_, emitter_;
+  std::vector<std::unique_ptr<Regions>> regions_;
+};
+
+}  // namespace etendue::rendering
