@@ -131,7 +131,8 @@ Sampled Lighting::sample(const StageLight& light, const PixelTarget& target, dou
         if (!stage_.blocked(*point, direction, distance, own)) sums.visible += value;
       };
       // Both strategies, one sample each; the balance heuristic (Veach 1997, section 9.2.2) divides by the sum of their densities.
-      const bool both = light.background || !std::holds_alternative<Lambert>(shading->brdf);
+      const bool environment = std::holds_alternative<eval::EnvironmentEmitter>(light.emitter.shape);
+      const bool both = environment || !std::holds_alternative<Lambert>(shading->brdf);
       const eval::LightSample towards = eval::sample_light(light.emitter, point->position, {u[2], u[3]});
       ++counts.evaluations;
       if (towards.pdf > 0) {

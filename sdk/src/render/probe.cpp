@@ -6,8 +6,6 @@
 namespace etendue::rendering {
 namespace {
 
-constexpr std::uint64_t nothing_key = 1;
-
 // Both on a curved surface: a step from one to the other must run along the surface, and the surface must not turn away meanwhile.
 bool continuous(const SurfacePoint& a, const SurfacePoint& b) {
   if (a.flat && b.flat) return true;
@@ -33,6 +31,12 @@ std::uint64_t state_of(const StageLight& light, const Stage& stage, const Surfac
   return 1;
 }
 
+// The edge of a sun's disk is the only discontinuity of a background.
+bool sun_is_at(const StageLight& light, const Ray& ray) {
+  return light.background && std::holds_alternative<eval::DistantEmitter>(light.emitter.shape) &&
+         !(eval::light_along(light.as_seen, ray.origin, ray.direction).radiance == Rgb{});
+}
+
 }  // namespace
 
 bool same(const Probe& a, const Probe& b) {
@@ -44,7 +48,12 @@ Probe Prober::look(double x, double y, RayCounts& counts) const {
   const Ray ray = camera_.through(x, y);
   ++counts.primary;
   Probe probe{nothing_key, stage_.first(ray)};
-  if (!probe.point) return probe;
+  if (!probe.point) {
+    for (const StageLight& light : stage_.lights()) {
+      if (sun_is_at(light, ray)) probe.key = mixed(probe.key ^ light.index);
+    }
+    return probe;
+  }
   const SurfacePoint& point = *probe.point;
   const double side = dot(point.normal, ray.direction) < 0 ? 1 : -1;
   probe.key = mixed(mixed(point.thing + 2) ^ point.part);

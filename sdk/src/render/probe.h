@@ -7,8 +7,9 @@
 
 namespace etendue::rendering {
 
+inline constexpr std::uint64_t nothing_key = 1;
 struct Probe {
-  std::uint64_t key = 0;  // thing, part of it, side, and the state of every punctual light
+  std::uint64_t key = 0;  // nothing_key, or made of thing, part of it, side, and the state of every punctual light
   std::optional<SurfacePoint> point;
 };
 

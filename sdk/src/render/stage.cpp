@@ -111,7 +111,9 @@ Status Stage::add_objects(const Scene& scene, bool mitsuba_model) {
     thing.object = i;
     thing.paint = *looks;
     thing.convex = !std::holds_alternative<MeshGeometry>(object.geometry);
-    if (const auto* sphere = std::get_if<SphereGeometry>(&object.geometry)) {
+    const auto* sphere = std::get_if<SphereGeometry>(&object.geometry);
+    // Mitsuba's sphere has other texture coordinates than ours: a textured one is exported as triangles, and is the same triangles here.
+    if (sphere != nullptr && !thing.paint->textured()) {
       const auto& columns = object.transform.columns;
       thing.shape = eval::SphereEmitter{object.transform.translation, sphere->radius * length(columns[0])};
       thing.shape_frame = {{normalised(columns[0]), normalised(columns[1]), normalised(columns[2])}, {}};
@@ -179,11 +181,13 @@ Status Stage::add_light(const Scene& scene, std::uint32_t index, bool lit, bool 
   staged.as_seen.window = {};
   staged.delta = is_delta(staged.emitter.shape);
   staged.analytic = is_analytic(staged.emitter);
-  staged.background = std::holds_alternative<eval::EnvironmentEmitter>(staged.emitter.shape);
+  const auto* distant = std::get_if<eval::DistantEmitter>(&staged.emitter.shape);
+  staged.background = std::holds_alternative<eval::EnvironmentEmitter>(staged.emitter.shape) || (distant != nullptr && !staged.delta);
   const auto* mesh = std::get_if<MeshShape>(&light.shape);
   staged.convex = mesh == nullptr;
   const std::optional<Shape> shape = visible_shape(staged.emitter.shape);
-  if (light.visible && (shape || mesh != nullptr)) {
+  // Mitsuba has no invisible area lights.
+  if ((light.visible || mitsuba_model) && (shape || mesh != nullptr)) {
     staged.thing = static_cast<std::uint32_t>(things_.size());
     Thing& thing = add_thing();
     thing.light = index;
@@ -198,7 +202,7 @@ Status Stage::add_light(const Scene& scene, std::uint32_t index, bool lit, bool 
     } else {
       Transform scale;
       scale.columns = {Vec3d{mesh->scale.x, 0, 0}, Vec3d{0, mesh->scale.y, 0}, Vec3d{0, 0, mesh->scale.z}};
-      thing.mesh = to_world(scene.meshes[mesh->mesh], light.transform * scale, thing.paint == nullptr);
+      thing.mesh = to_world(scene.meshes[mesh->mesh], light.transform * scale, thing.paint == nullptr || mitsuba_model);
       rays_.add(thing.mesh.triangles);
     }
   }

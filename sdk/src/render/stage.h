@@ -19,7 +19,7 @@ struct StageLight {
   bool delta = false;              // one direction a point: punctual and true directions
   bool analytic = true;            // eval::reference is exact and cheap enough; else sampled alone
   bool convex = true;              // cannot hide a part of its own front from anybody
-  bool background = false;         // environment
+  bool background = false;         // seen behind everything: an environment, or a sun with a disk
 };
 
 class Stage {

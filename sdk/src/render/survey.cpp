@@ -18,7 +18,9 @@ Survey::Survey(const Stage& stage, const PinholeCamera& camera, const SurveyOpti
       suspected_(keys_.size()),
       split_(keys_.size()),
       emitter_(keys_.size()),
-      regions_(keys_.size()) {}
+      regions_(keys_.size()),
+      environment_(std::any_of(stage.lights().begin(), stage.lights().end(),
+                               [](const StageLight& l) { return std::holds_alternative<eval::EnvironmentEmitter>(l.emitter.shape); })) {}
 
 bool Survey::run(RowRunner& rows) {
   return rows.run([this](std::uint32_t row, RayCounts& counts) { look_first(row, counts); }) &&
@@ -27,7 +29,7 @@ bool Survey::run(RowRunner& rows) {
 
 bool Survey::is_emitter(const Probe& probe) const {
   if (probe.point) return stage_.thing(probe.point->thing).light.has_value();
-  return std::any_of(stage_.lights().begin(), stage_.lights().end(), [](const StageLight& l) { return l.background; });
+  return environment_ || probe.key != nothing_key;
 }
 
 void Survey::look_first(std::uint32_t row, RayCounts& counts) {

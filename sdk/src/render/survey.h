@@ -42,6 +42,7 @@ class Survey {
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint8_t> suspected_, split_, emitter_;
   std::vector<std::unique_ptr<Regions>> regions_;
+  bool environment_;  // fills what nothing else does
 };
 
 }  // namespace etendue::rendering

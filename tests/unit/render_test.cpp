@@ -1,0 +1,332 @@
+#include "etendue/render.h"
+
+#include "etendue/eval.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace etendue {
+namespace {
+
+Light with_luminance(Shape shape, double luminance, Transform transform = {}) {
+  Light light;
+  light.name = "light";
+  light.shape = std::move(shape);
+  light.emission = {Emission::Given::luminance, luminance};
+  light.transform = transform;
+  return light;
+}
+Light point_light(double candela, const Vec3d& position) {
+  Light light;
+  light.name = "point";
+  light.shape = PointShape{};
+  light.emission = {Emission::Given::intensity, candela};
+  light.transform.translation = position;
+  return light;
+}
+// Emits along -Y instead of -Z.
+Transform facing_down(const Vec3d& position) { return {{Vec3d{1, 0, 0}, Vec3d{0, 0, -1}, Vec3d{0, 1, 0}}, position}; }
+
+Object object(Geometry geometry, Transform transform = {}) {
+  Object o;
+  o.name = "object";
+  o.geometry = std::move(geometry);
+  o.transform = transform;
+  return o;
+}
+Transform at(const Vec3d& position) {
+  Transform t;
+  t.translation = position;
+  return t;
+}
+
+// A floor of albedo .5 seen from above.
+Scene floor_scene() {
+  Scene scene;
+  scene.objects.push_back(object(PlaneGeometry{20}));
+  scene.cameras.push_back(look_at({0, 4, 2}, {0, 0, 0}, 0.6));
+  return scene;
+}
+
+Rendered rendered(const Scene& scene, const RenderOptions& options) {
+  Result<Rendered> result = render(scene, options);
+  EXPECT_TRUE(result.ok()) << result.error().text;
+  return result.ok() ? std::move(*result) : Rendered{};
+}
+
+RenderOptions small(std::uint32_t width = 24, std::uint32_t height = 24) {
+  RenderOptions options;
+  options.width = width;
+  options.height = height;
+  return options;
+}
+
+float green(const Picture& p, std::string_view layer, std::size_t pixel) { return p.find(layer)->pixels[3 * pixel + 1]; }
+
+// Where the ray through a place of the picture meets the floor y = 0, from the camera's definition.
+Vec3d floor_point(const Camera& camera, const RenderOptions& o, double x, double y) {
+  const double t = std::tan(camera.vfov_rad / 2);
+  const Vec3d d = camera.transform.vector({(2 * x / o.width - 1) * t * o.width / o.height, (1 - 2 * y / o.height) * t, -1});
+  return camera.transform.translation + d * (-camera.transform.translation.y / d.y);
+}
+
+// Mean of f over a pixel by 8 x 8 midpoints: error of second order, (1/8)^2 of the curvature correction, under 1e-5 here.
+template <class F>
+double pixel_mean(const Camera& camera, const RenderOptions& o, std::size_t pixel, const F& f) {
+  double sum = 0;
+  for (int j = 0; j < 8; ++j) {
+    for (int i = 0; i < 8; ++i) {
+      sum += f(floor_point(camera, o, static_cast<double>(pixel % o.width) + (i + 0.5) / 8,
+                           static_cast<double>(pixel / o.width) + (j + 0.5) / 8));
+    }
+  }
+  return sum / 64;
+}
+
+TEST(Render, PointLightOnALambertFloorIsTheCosineLawOverThePixelsArea) {
+  Scene scene = floor_scene();
+  const Vec3d lamp{0.3, 1.2, -0.2};
+  scene.lights.push_back(point_light(100, lamp));
+  const RenderOptions options = small();
+  const Rendered out = rendered(scene, options);
+  for (std::size_t i = 0; i < 24 * 24; ++i) {
+    const double expected = pixel_mean(scene.cameras[0], options, i, [&](const Vec3d& p) {
+      const Vec3d to = lamp - p;
+      return 0.5 / pi * 100 * to.y / std::pow(dot(to, to), 1.5);
+    });
+    ASSERT_NEAR(green(out.picture, "", i), expected, 2e-5 * expected) << i;
+  }
+  EXPECT_EQ(out.stats.split_pixels, 0u);
+}
+
+TEST(Render, RectangleOnALambertFloorIsTheClosedFormIlluminance) {
+  Scene scene = floor_scene();
+  scene.lights.push_back(with_luminance(RectShape{1, 0.5}, 1000, facing_down({0.2, 1, 0})));
+  scene.lights[0].visible = false;
+  const RenderOptions options = small(12, 12);
+  const Rendered out = rendered(scene, options);
+  const Result<eval::Emitter> emitter = eval::emitter_of(scene.lights[0]);
+  ASSERT_TRUE(emitter.ok());
+  for (std::size_t i = 0; i < 144; ++i) {
+    const double expected = pixel_mean(scene.cameras[0], options, i, [&](const Vec3d& p) {
+      return 0.5 / pi * eval::illuminance(*emitter, p, {0, 1, 0}).y;
+    });
+    ASSERT_NEAR(green(out.picture, "", i), expected, 2e-4 * expected) << i;
+  }
+}
+
+// A sphere of angular radius a on the axis of the picture fills a circle of radius tan a on the plane at distance 1.
+TEST(Render, AVisibleSphereLightHasItsLuminanceAndItsSize) {
+  Scene scene;
+  scene.cameras.push_back(look_at({0, 0, 3}, {0, 0, 0}, 0.6));
+  scene.lights.push_back(with_luminance(SphereShape{0.5}, 700));
+  const RenderOptions options = small(32, 32);
+  const Rendered out = rendered(scene, options);
+  double sum = 0;
+  for (std::size_t i = 0; i < 32 * 32; ++i) sum += static_cast<double>(green(out.picture, "", i));
+  const double side = 2 * std::tan(0.3) / 32, tangent = std::tan(std::asin(0.5 / 3));
+  // 60 pixels on the rim, each within .02 noise = 2e-4 of its area: 2e-4 sqrt(60) / 314 at random, 4e-5 if all err alike.
+  EXPECT_NEAR(sum * side * side, 700 * pi * tangent * tangent, 1e-4 * 700 * pi * tangent * tangent);
+  EXPECT_FLOAT_EQ(green(out.picture, "", 16 * 32 + 16), 700);
+  EXPECT_EQ(out.picture.find("emitter")->pixels[16 * 32 + 16], 1);
+  EXPECT_EQ(out.picture.find("emitter")->pixels[0], 0);
+  EXPECT_EQ(out.picture.find("object")->pixels[16 * 32 + 16], -1);
+}
+
+// A half-plane at half the height of a rectangular light hides the light's part x < -p of a point at x = p.
+struct Penumbra {
+  Scene scene = floor_scene();
+  Penumbra() {
+    scene.lights.push_back(with_luminance(RectShape{1, 1}, 1000, facing_down({0, 2, 0})));
+    scene.lights[0].visible = false;
+    scene.objects.push_back(object(PlaneGeometry{40}, at({-20, 1, 0})));
+    scene.cameras[0] = look_at({0.9, 0.8, 0.5}, {0.2, 0, 0}, 0.9);
+  }
+  static double expected(const Vec3d& p) {
+    const double left = std::clamp(-p.x, -0.5, 0.5);
+    if (left >= 0.5) return 0;
+    const Light seen = with_luminance(RectShape{0.5 - left, 1}, 1000, facing_down({(left + 0.5) / 2, 2, 0}));
+    return 0.5 / pi * eval::illuminance(*eval::emitter_of(seen), p, {0, 1, 0}).y;
+  }
+};
+
+TEST(Render, PenumbraOfAHalfPlaneIsTheVisiblePartOfTheLight) {
+  const Penumbra penumbra;
+  RenderOptions options = small(20, 20);
+  options.expected_noise = 0.05;
+  const Rendered out = rendered(penumbra.scene, options);
+  double ours = 0, theirs = 0, variance = 0, chi2 = 0;
+  int mixed = 0;
+  for (std::size_t i = 0; i < 400; ++i) {
+    if (out.picture.find("object")->pixels[i] != 1) continue;
+    const double expected = pixel_mean(penumbra.scene.cameras[0], options, i, Penumbra::expected);
+    const double value = green(out.picture, "", i), v = green(out.picture, "variance", i);
+    ours += value, theirs += expected, variance += v;
+    if (v > 0) ++mixed, chi2 += (value - expected) * (value - expected) / v;
+  }
+  ASSERT_GT(mixed, 50);
+  EXPECT_NEAR(ours, theirs, 4 * std::sqrt(variance) + 1e-4 * theirs);
+  EXPECT_LT(std::sqrt(variance), 0.002 * theirs);
+  // Eight replicates: Student's t with 7 degrees of freedom has variance 7/5. 5 standard deviations of a mean of t^2, for 50 pixels.
+  EXPECT_NEAR(chi2 / mixed, 1.4, 2.0);
+}
+
+TEST(Render, TwoSeedsDifferByWhatTheVarianceSays) {
+  const Penumbra penumbra;
+  RenderOptions options = small();
+  options.expected_noise = 0.05;
+  const Rendered a = rendered(penumbra.scene, options);
+  options.seed = 2;
+  const Rendered b = rendered(penumbra.scene, options);
+  double chi2 = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < 24 * 24; ++i) {
+    const double v = green(a.picture, "variance", i) + green(b.picture, "variance", i);
+    if (v <= 0) continue;
+    const double d = green(a.picture, "", i) - green(b.picture, "", i);
+    chi2 += d * d / v;
+    ++count;
+  }
+  ASSERT_GT(count, 100);
+  // 14 degrees of freedom: mean 14/12 = 1.17.
+  EXPECT_GT(chi2 / count, 0.7);
+  EXPECT_LT(chi2 / count, 2.0);
+}
+
+TEST(Render, LayersOfLightsAddUpAndDoNotDependOnThreads) {
+  Scene scene = floor_scene();
+  scene.lights.push_back(point_light(50, {1, 2, 0}));
+  scene.lights.push_back(with_luminance(SphereShape{0.2}, 500, at({-0.4, 0.8, 0})));
+  scene.lights[1].name = "ball.001";
+  scene.objects.push_back(object(BoxGeometry{{0.3, 0.6, 0.3}}, at({0.3, 0.3, 0})));
+  RenderOptions options = small();
+  options.threads = 1;
+  const Rendered one = rendered(scene, options);
+  options.threads = 3;
+  const Rendered three = rendered(scene, options);
+  ASSERT_NE(one.picture.find("light.ball_001"), nullptr);
+  for (std::size_t i = 0; i < 24 * 24; ++i) {
+    const float sum = green(one.picture, "light.point", i) + green(one.picture, "light.ball_001", i);
+    ASSERT_NEAR(green(one.picture, "", i), sum, 1e-6 * sum);
+    const float variance = green(one.picture, "light_variance.point", i) + green(one.picture, "light_variance.ball_001", i);
+    ASSERT_NEAR(green(one.picture, "variance", i), variance, 1e-6 * variance);
+  }
+  for (const Layer& layer : one.picture.layers) EXPECT_EQ(layer.pixels, three.picture.find(layer.name)->pixels) << layer.name;
+}
+
+// The centre of the picture, straight below a point light, with a sphere light in between.
+TEST(Render, ADarkLightIsStillThere) {
+  Scene scene = floor_scene();
+  scene.lights.push_back(point_light(100, {0, 3, 0}));
+  scene.lights.push_back(with_luminance(SphereShape{0.3}, 500, at({0, 1.5, 0})));
+  scene.cameras[0] = look_at({1.5, 1, 0}, {0, 0, 0}, 0.3);
+  RenderOptions options = small(9, 9);
+  options.lit = {0};
+  const std::size_t centre = 4 * 9 + 4;
+  const Rendered dark = rendered(scene, options);
+  EXPECT_EQ(green(dark.picture, "", centre), 0);
+  EXPECT_EQ(dark.picture.find("light.light"), nullptr);
+  scene.lights[1].visible = false;
+  EXPECT_NEAR(green(rendered(scene, options).picture, "", centre), 0.5 / pi * 100 / 9, 1e-3);
+  options.mitsuba_model = true;  // which has no invisible lights
+  EXPECT_EQ(green(rendered(scene, options).picture, "", centre), 0);
+}
+
+TEST(Render, BacksOfOneSidedSurfacesAreBlackAndHolesAreOpen) {
+  Scene scene = floor_scene();
+  scene.cameras[0] = look_at({0, -2, 0.5}, {0, 0, 0}, 0.3);
+  scene.lights.push_back(point_light(100, {0, -1, 0}));
+  scene.materials.push_back({});
+  scene.materials[0].model = Lambert{};
+  scene.objects[0].material = 0;
+  const RenderOptions options = small(5, 5);
+  EXPECT_NEAR(green(rendered(scene, options).picture, "", 12), 0.5 / pi * 100, 0.01);
+  scene.materials[0].double_sided = false;
+  EXPECT_EQ(green(rendered(scene, options).picture, "", 12), 0);
+  scene.materials[0].alpha_cutoff = 0.5;
+  scene.materials[0].base_alpha = 0.4;
+  const Rendered hole = rendered(scene, options);
+  EXPECT_EQ(hole.picture.find("object")->pixels[12], 0);
+}
+
+// Uniform light from everywhere: a Lambert surface of albedo .5 shows half of it, whatever its direction.
+TEST(Render, UniformEnvironment) {
+  Scene scene = floor_scene();
+  scene.objects[0] = object(SphereGeometry{0.8});
+  scene.cameras[0] = look_at({0, 0, 4}, {0, 0, 0}, 0.6);
+  scene.lights.push_back(with_luminance(EnvironmentShape{}, 80));
+  RenderOptions options = small(11, 11);
+  options.expected_noise = 0.05;
+  const Rendered out = rendered(scene, options);
+  EXPECT_FLOAT_EQ(green(out.picture, "", 0), 80);
+  double sum = 0, variance = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < 121; ++i) {
+    if (out.picture.find("emitter")->pixels[i] != 0) continue;
+    sum += static_cast<double>(green(out.picture, "", i));
+    variance += static_cast<double>(green(out.picture, "variance", i));
+    ++count;
+  }
+  ASSERT_GT(count, 20);
+  EXPECT_NEAR(sum / count, 40, 4 * std::sqrt(variance) / count + 1e-4);
+  EXPECT_LT(std::sqrt(variance) / count, 0.2);
+}
+
+// One pixel over a floor of black and white halves: the mean of the texture.
+TEST(Render, TexturesAreIntegratedOverThePixel) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "halves.ppm";
+  std::ofstream(file, std::ios::binary) << "P6\n2 1\n255\n" << std::string("\0\0\0\xff\xff\xff", 6);
+  Scene scene = floor_scene();
+  scene.images.push_back({file.string(), nullptr, "", "halves"});
+  scene.materials.push_back({});
+  scene.materials[0].model = Lambert{{1, 1, 1}};
+  Texture texture;
+  texture.nearest = true;
+  texture.uv_transform[0][0] = 16;
+  scene.materials[0].base_colour_texture = texture;
+  scene.objects[0].material = 0;
+  Light sun;
+  sun.name = "sun";
+  sun.shape = DistantShape{};
+  sun.emission = {Emission::Given::illuminance, pi};
+  sun.transform = facing_down({0, 0, 0});
+  scene.lights.push_back(sun);
+  const Rendered out = rendered(scene, small(8, 8));
+  double sum = 0, variance = 0;
+  for (std::size_t i = 0; i < 64; ++i)
+    sum += static_cast<double>(green(out.picture, "", i)), variance += static_cast<double>(green(out.picture, "variance", i));
+  EXPECT_EQ(out.stats.images_decoded, 1u);
+  // The frame's sides are not whole periods: half a period of 1.25 m over 2.5 m at the most, though stripes and frame are both symmetric.
+  EXPECT_NEAR(sum / 64, 0.5, 0.1);
+  EXPECT_GT(variance, 0);
+}
+
+struct Stop : Progress {
+  int calls = 0;
+  bool report(std::string_view, double fraction) override {
+    EXPECT_GE(fraction, 0);
+    EXPECT_LE(fraction, 1);
+    return ++calls < 5;
+  }
+};
+TEST(Render, CancelsAndRefuses) {
+  Scene scene = floor_scene();
+  scene.lights.push_back(point_light(100, {0, 1, 0}));
+  Stop stop;
+  const Result<Rendered> cancelled = render(scene, small(), &stop);
+  ASSERT_FALSE(cancelled.ok());
+  EXPECT_EQ(cancelled.error().code, "CANCELLED");
+  RenderOptions options = small();
+  options.camera = 1;
+  EXPECT_EQ(render(scene, options).error().code, "CAMERA_MISSING");
+  scene.objects[0].material = 7;
+  EXPECT_EQ(render(scene, small()).error().code, "SCENE_INVALID");
+}
+
+}  // namespace
+}  // namespace etendue
