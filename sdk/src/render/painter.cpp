@@ -140,8 +140,6 @@ std::optional<Rgb> LightPainter::curvature(std::uint32_t x, std::uint32_t y) con
     if (known_[n] == 0 || survey_.key(n) != survey_.key(pixel)) return std::nullopt;
     laplacian += centre_[n];
   }
-  constexpr double gentle = 0.05;
-  if (largest(laplacian) > gentle * largest(centre_[pixel])) return std::nullopt;
   return laplacian / 24.0;
 }
 
@@ -176,6 +174,20 @@ LightPainter::Measured LightPainter::stratified(std::uint32_t x, std::uint32_t y
   return out;
 }
 
+// `side` is 2 or 3 places along each side of the pixel: exact up to third or fifth degree.
+Rgb LightPainter::gauss_legendre(std::uint32_t x, std::uint32_t y, double beta, int side, RayCounts& counts) const {
+  static const double two = std::sqrt(1.0 / 12), three = std::sqrt(0.15);
+  const std::array<double, 3> place = side == 2 ? std::array{-two, two, 0.0} : std::array{-three, three, 0.0};
+  const std::array<double, 3> weight = side == 2 ? std::array{0.5, 0.5, 0.0} : std::array{5 / 18.0, 5 / 18.0, 8 / 18.0};
+  Rgb sum;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(side); ++j) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(side); ++i) {
+      sum += at(x + 0.5 + place[i], y + 0.5 + place[j], beta, counts) * (weight[i] * weight[j]);
+    }
+  }
+  return sum;
+}
+
 LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, double beta, const std::optional<SurfacePoint>& centre,
                                             RayCounts& counts) const {
   const std::size_t pixel = index(x, y);
@@ -190,19 +202,15 @@ LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, do
   const Ray ray = camera_.through(x + 0.5, y + 0.5);
   Measured out{lighting_.emitted(light_, centre, ray), {}};
   if (beta <= 0 || thing == nullptr || thing->paint == nullptr || !light_.analytic) return out;
-  if (known_[pixel] != 0) {
-    if (const auto correction = curvature(x, y)) {
-      out.value += (centre_[pixel] + *correction) * beta;
-      return out;
-    }
+  // With g = f_xx / f the next terms are of the order g^2: g^2 / 340 here, g^2 / 4320 and g^3 / 2e6 for the two quadratures below.
+  constexpr double gentle = 0.01 / 24, steep = 0.1 / 24;
+  const std::optional<Rgb> correction = known_[pixel] != 0 ? curvature(x, y) : std::nullopt;
+  const double bend = correction ? largest(*correction) / std::max(largest(centre_[pixel]), 1e-300) : gentle;
+  if (correction && bend < gentle) {
+    out.value += (centre_[pixel] + *correction) * beta;
+    return out;
   }
-  // Gauss and Legendre's two places along each side: exact up to cubics.
-  constexpr double away = 0.28867513459481287;  // 1 / (2 sqrt 3)
-  out.value = {};
-  for (const double dy : {-away, away}) {
-    for (const double dx : {-away, away}) out.value += at(x + 0.5 + dx, y + 0.5 + dy, beta, counts) / 4.0;
-  }
-  return out;
+  return {gauss_legendre(x, y, beta, bend > steep ? 3 : 2, counts), {}};
 }
 
 LightPainter::Measured LightPainter::split(const Regions& regions, double beta, RayCounts& counts) const {
