@@ -110,16 +110,16 @@ TEST(Render, RectangleOnALambertFloorIsTheClosedFormIlluminance) {
   Scene scene = floor_scene();
   scene.lights.push_back(with_luminance(RectShape{1, 0.5}, 1000, facing_down({0.2, 1, 0})));
   scene.lights[0].visible = false;
-  const RenderOptions options = small(12, 12);
+  const RenderOptions options = small();
   const Rendered out = rendered(scene, options);
   const Result<eval::Emitter> emitter = eval::emitter_of(scene.lights[0]);
   ASSERT_TRUE(emitter.ok());
-  for (std::size_t i = 0; i < 144; ++i) {
+  for (std::size_t i = 0; i < 24 * 24; ++i) {
     const double expected = pixel_mean(scene.cameras[0], options, i, [&](const Vec3d& p) {
       return 0.5 / pi * eval::illuminance(*emitter, p, {0, 1, 0}).y;
     });
-    // Pixels are as large as a fifth of the light's height: 5e-5 is the quadratures' fourth derivatives.
-    ASSERT_NEAR(green(out.picture, "", i), expected, 5e-5 * expected) << i;
+    // Pixels are as large as a tenth of the light's height: 2e-5 is the quadratures' fourth derivatives.
+    ASSERT_NEAR(green(out.picture, "", i), expected, 2e-5 * expected) << i;
   }
 }
 

@@ -131,16 +131,16 @@ void LightPainter::centre_row(std::uint32_t row, RayCounts& counts) {
 }
 
 // The mean of f over a pixel of side 1 is f + (f_xx + f_yy) / 24 + O(4th derivatives); second differences of neighbours give f_xx, f_yy.
-std::optional<Rgb> LightPainter::curvature(std::uint32_t x, std::uint32_t y) const {
-  if (x == 0 || y == 0 || x + 1 >= options_.width || y + 1 >= options_.height) return std::nullopt;
+std::optional<LightPainter::Curvature> LightPainter::curvature(std::uint32_t x, std::uint32_t y) const {
   const std::size_t pixel = index(x, y);
-  const std::array<std::size_t, 4> neighbours{pixel - 1, pixel + 1, pixel - options_.width, pixel + options_.width};
-  Rgb laplacian = centre_[pixel] * -4.0;
-  for (const std::size_t n : neighbours) {
+  if (known_[pixel] == 0 || x == 0 || y == 0 || x + 1 >= options_.width || y + 1 >= options_.height) return std::nullopt;
+  for (const std::size_t n : {pixel - 1, pixel + 1, pixel - options_.width, pixel + options_.width}) {
     if (known_[n] == 0 || survey_.key(n) != survey_.key(pixel)) return std::nullopt;
-    laplacian += centre_[n];
   }
-  return laplacian / 24.0;
+  const Rgb f_xx = centre_[pixel - 1] + centre_[pixel + 1] - centre_[pixel] * 2.0;
+  const Rgb f_yy = centre_[pixel - options_.width] + centre_[pixel + options_.width] - centre_[pixel] * 2.0;
+  const double size = largest(centre_[pixel]);
+  return Curvature{(f_xx + f_yy) / 24.0, size > 0 ? (largest(f_xx) + largest(f_yy)) / size : 0};
 }
 
 Rgb LightPainter::at(double x, double y, double beta, RayCounts& counts) const {
@@ -202,15 +202,14 @@ LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, do
   const Ray ray = camera_.through(x + 0.5, y + 0.5);
   Measured out{lighting_.emitted(light_, centre, ray), {}};
   if (beta <= 0 || thing == nullptr || thing->paint == nullptr || !light_.analytic) return out;
-  // With g = f_xx / f the next terms are of the order g^2: g^2 / 340 here, g^2 / 4320 and g^3 / 2e6 for the two quadratures below.
-  constexpr double gentle = 0.01 / 24, steep = 0.1 / 24;
-  const std::optional<Rgb> correction = known_[pixel] != 0 ? curvature(x, y) : std::nullopt;
-  const double bend = correction ? largest(*correction) / std::max(largest(centre_[pixel]), 1e-300) : gentle;
-  if (correction && bend < gentle) {
-    out.value += (centre_[pixel] + *correction) * beta;
+  // With g = |f_xx / f| the next terms are of the order g^2: g^2 / 340 here, g^2 / 4320 and g^3 / 2e6 for the two quadratures below.
+  constexpr double gentle = 0.01, steep = 0.1;
+  const std::optional<Curvature> bend = curvature(x, y);
+  if (bend && bend->relative < gentle) {
+    out.value += (centre_[pixel] + bend->correction) * beta;
     return out;
   }
-  return {gauss_legendre(x, y, beta, bend > steep ? 3 : 2, counts), {}};
+  return {gauss_legendre(x, y, beta, bend && bend->relative > steep ? 3 : 2, counts), {}};
 }
 
 LightPainter::Measured LightPainter::split(const Regions& regions, double beta, RayCounts& counts) const {

@@ -31,6 +31,10 @@ class LightPainter {
   struct Measured {
     Rgb value, variance;
   };
+  struct Curvature {
+    Rgb correction;   // from the centre's value to the pixel's mean
+    double relative;  // |f_xx / f| + |f_yy / f|
+  };
   // What the pilot samples around a pixel, its own left out, say about shadows there.
   struct Surroundings {
     double beta = 1;
@@ -52,7 +56,7 @@ class LightPainter {
   Measured stratified(std::uint32_t x, std::uint32_t y, double beta, int side, RayCounts& counts) const;
   Measured sampled(std::uint32_t x, std::uint32_t y, const Surroundings& around, const std::optional<SurfacePoint>& centre,
                    RayCounts& counts) const;
-  std::optional<Rgb> curvature(std::uint32_t x, std::uint32_t y) const;
+  std::optional<Curvature> curvature(std::uint32_t x, std::uint32_t y) const;
   std::size_t index(std::uint32_t x, std::uint32_t y) const { return std::size_t{y} * options_.width + x; }
   std::uint64_t seed(std::size_t pixel, std::uint64_t purpose) const;
 
