@@ -93,7 +93,7 @@ inline Noise gaussian(double relative) {
   return [relative](std::mt19937_64& random) { return std::normal_distribution<double>(1, relative)(random); };
 }
 // Standard deviation 1/sqrt(shape), skewness 2/sqrt(shape).
-inline Noise gamma(double shape) {
+inline Noise gamma_noise(double shape) {
   return [shape](std::mt19937_64& random) { return std::gamma_distribution<double>(shape, 1 / shape)(random); };
 }
 // Gaussian, and with probability p an outlier that adds `size`; the mean stays 1.

@@ -131,6 +131,7 @@ Result<Evidence> gather(const Picture& ours, const Picture& reference, const std
   for (double value : e.reference) total += std::abs(value);
   const double mean = total / static_cast<double>(3 * count);
   e.variance.resize(3 * count);
+  double counted = 0;
   for (std::size_t i = 0; i < 3 * count; ++i) {
     const double rounding = float_accumulation * e.reference[i];
     const double theirs = std::max(0.0F, their_variance->pixels[i]), own = our_variance ? std::max(0.0F, our_variance->pixels[i]) : 0;
@@ -138,7 +139,11 @@ Result<Evidence> gather(const Picture& ours, const Picture& reference, const std
     // probability that gives ours, K trials would have the variance |ours| mean / K; a seed is at least one trial.
     const bool unseen = e.reference[i] == 0 && theirs == 0;
     e.variance[i] = theirs + own + rounding * rounding + (unseen ? std::abs(e.ours[i]) * mean / e.seeds : 0);
+    if (!(e.variance[i] > 0)) continue;
+    e.own_noise += own / e.variance[i];
+    counted += 1;
   }
+  e.own_noise /= std::max(counted, 1.0);
 
   e.emitter.assign(count, false);
   e.object.assign(count, 0);

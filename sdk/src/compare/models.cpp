@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -147,19 +148,31 @@ Values denoised(const Values& light, const Values& picture, const Evidence& e) {
   return result;
 }
 
-// The light's part may be brighter, fall off otherwise across the picture (up to second order), and lie elsewhere (its slopes).
-std::vector<Values> shape_bases(const Values& light, int width, int height) {
+// The light's part may be brighter, fall off otherwise across the picture (up to second order), and lie elsewhere (its first and second
+// slopes). Where a light moves, the paint under it does not: slopes are those of the light's share of the picture, times the picture. A
+// light that is the whole of the picture has a share of 1, and its own slopes stand in.
+constexpr int shape_parameters = 11;
+std::vector<Values> shape_bases(const Values& light, const Values& picture, int width, int height) {
   const Grid g{light.data(), width, height};
   const auto u = [&](int x) { return 2 * (x + .5) / width - 1; };
   const auto v = [&](int y) { return 2 * (y + .5) / height - 1; };
-  return {light,
-          each_pixel(g, [&](int x, int y, std::size_t c) { return u(x) * g.at(x, y, c); }),
-          each_pixel(g, [&](int x, int y, std::size_t c) { return v(y) * g.at(x, y, c); }),
-          each_pixel(g, [&](int x, int y, std::size_t c) { return u(x) * u(x) * g.at(x, y, c); }),
-          each_pixel(g, [&](int x, int y, std::size_t c) { return u(x) * v(y) * g.at(x, y, c); }),
-          each_pixel(g, [&](int x, int y, std::size_t c) { return v(y) * v(y) * g.at(x, y, c); }),
-          slope_x(g),
-          slope_y(g)};
+  const bool alone = total(light) > .999 * total(picture);
+  Values share = light;
+  for (std::size_t i = 0; i < share.size() && !alone; ++i) share[i] = picture[i] > 0 ? light[i] / picture[i] : 0;
+  const Values sx = slope_x({share.data(), width, height}), sy = slope_y({share.data(), width, height});
+  std::vector<Values> slopes{sx, sy, slope_x({sx.data(), width, height}), slope_y({sy.data(), width, height}),
+                             slope_y({sx.data(), width, height})};
+  for (Values& slope : slopes) {
+    for (std::size_t i = 0; i < slope.size() && !alone; ++i) slope[i] *= picture[i];
+  }
+  std::vector<Values> bases{light,
+                            each_pixel(g, [&](int x, int y, std::size_t c) { return u(x) * g.at(x, y, c); }),
+                            each_pixel(g, [&](int x, int y, std::size_t c) { return v(y) * g.at(x, y, c); }),
+                            each_pixel(g, [&](int x, int y, std::size_t c) { return u(x) * u(x) * g.at(x, y, c); }),
+                            each_pixel(g, [&](int x, int y, std::size_t c) { return u(x) * v(y) * g.at(x, y, c); }),
+                            each_pixel(g, [&](int x, int y, std::size_t c) { return v(y) * v(y) * g.at(x, y, c); })};
+  std::move(slopes.begin(), slopes.end(), std::back_inserter(bases));
+  return bases;
 }
 
 // Solves A x = b for a symmetric positive definite A (n x n, row by row) and gives the diagonal of its inverse; a direction that the data
@@ -208,9 +221,12 @@ std::vector<Model> models_for(const Values& base, const Evidence& e, const Pictu
   const int width = static_cast<int>(e.width), height = static_cast<int>(e.height);
   std::vector<Model> models;
   models.push_back(linear_model(Model::Kind::scale, base, 1, [&base] { return std::vector<Values>{base}; }));
-  models.push_back(linear_model(Model::Kind::filter, base, 1, [&base, width, height] {
-    return std::vector<Values>{laplacian({base.data(), width, height})};
-  }));
+  // Noise of our own is noise of our Laplacian too, and would pass for a filter.
+  if (e.own_noise < .02) {
+    models.push_back(linear_model(Model::Kind::filter, base, 1, [&base, width, height] {
+      return std::vector<Values>{laplacian({base.data(), width, height})};
+    }));
+  }
   models.push_back(gamma_model(base));
   models.push_back(shift_model(base, width, height));
   for (const std::string& name : lights_of(reference)) {
@@ -223,8 +239,8 @@ std::vector<Model> models_for(const Values& base, const Evidence& e, const Pictu
     models.back().light = name;
     models.back().light_absent = absent;
     if (absent) continue;
-    models.push_back(
-        linear_model(Model::Kind::light_shape, base, 8, [light, width, height] { return shape_bases(*light, width, height); }));
+    models.push_back(linear_model(Model::Kind::light_shape, base, shape_parameters,
+                                  [&base, light, width, height] { return shape_bases(*light, base, width, height); }));
     models.back().light = name;
   }
   return models;
