@@ -2,18 +2,83 @@
 
 namespace etendue::eval {
 
-FanArc::FanArc(const Fan& fan, const Arc& arc) : fan_(&fan), arc_(arc) {
-  const Nearest nearest = nearest_to(arc, fan.centre);
-  nearest_ = nearest.s;
-  const double lobe = 2 * std::sqrt(fan.lobe * fan.lobe_across);
-  scale_ = std::max(nearest.distance, lobe) / std::max(nearest.speed, 1e-300);
+namespace {
+
+double azimuth_speed(const Arc& arc, const Vec3d& c, double s) {
+  const Vec3d b = arc.at(s), tangent = arc.v * std::cos(s) - arc.u * std::sin(s), across = cross(c, b);
+  return std::abs(dot(c, cross(b, tangent))) / std::max(dot(across, across), 1e-300);
 }
 
-std::vector<double> FanArc::borders(double longest_w, double longest_s) const {
+Arc part_of(const Arc& arc, double begin, double end) {
+  Arc part = arc;
+  part.begin = begin;
+  part.end = end;
+  return part;
+}
+
+}  // namespace
+
+std::vector<FanArc> pieces_of(const Fan& fan) {
+  std::vector<FanArc> pieces;
+  const double lobe = 2 * std::sqrt(fan.lobe * fan.lobe_across);
+  for (int i = 0; i < static_cast<int>(fan.contour.size()); ++i) {
+    if (i == fan.adjacent[0] || i == fan.adjacent[1]) continue;
+    const Arc& arc = fan.contour[static_cast<std::size_t>(i)];
+    const Nearest nearest = nearest_to(arc, fan.centre);
+    const double scale = std::max(nearest.distance, lobe) / std::max(nearest.speed, 1e-300);
+    Crossings ridges;
+    if (fan.ridge < 1) ridges = crossings(arc, cross(fan.centre, fan.in_plane));
+    // Each crossing of the ridge owns the part of the arc up to halfway (in w) to the closest approach or to the other crossing.
+    const auto halfway = [&](double s, double t) {
+      const double w = 0.5 * (std::asinh((s - nearest.s) / scale) + std::asinh((t - nearest.s) / scale));
+      return nearest.s + scale * std::sinh(w);
+    };
+    double begin = arc.begin;
+    for (std::size_t k = 0; k < ridges.count; ++k) {
+      const double at = ridges.s[k];
+      double lo = at > nearest.s ? halfway(nearest.s, at) : arc.begin, hi = at < nearest.s ? halfway(at, nearest.s) : arc.end;
+      if (k > 0) lo = std::max(lo, halfway(ridges.s[0], at));
+      if (k + 1 < ridges.count) hi = std::min(hi, halfway(at, ridges.s[1]));
+      const double width = std::min(fan.ridge / std::max(azimuth_speed(arc, fan.centre, at), 1e-300), scale);
+      if (lo > begin) pieces.emplace_back(fan, part_of(arc, begin, lo), nearest.s, scale);
+      lo = std::max(lo, begin);
+      if (at > lo) pieces.emplace_back(fan, part_of(arc, lo, at), at, width);
+      if (hi > at) pieces.emplace_back(fan, part_of(arc, at, hi), at, width);
+      begin = std::max(begin, hi);
+    }
+    if (arc.end > begin) pieces.emplace_back(fan, part_of(arc, begin, arc.end), nearest.s, scale);
+  }
+  return pieces;
+}
+
+namespace {
+
+// Layers of masking: cells that grow away from a border of no height, the first four layers high.
+constexpr double first_layer = 4, layer_growth = 8;
+
+// Adds the borders between `from`, where the integrand is `lowest` above the horizon and rises with `slope`, and `to`.
+void add_layers(std::vector<double>& marks, double from, double to, double lowest, double slope, double layer) {
+  const double span = std::abs(to - from), sign = to > from ? 1 : -1;
+  if (!(lowest < first_layer * layer) || !(slope * span > layer)) return;
+  for (double height = first_layer * layer; height < 1; height *= layer_growth) {
+    const double away = (height - lowest) / slope;
+    if (!(away < 0.8 * span)) break;
+    marks.push_back(from + sign * away);
+  }
+}
+
+}  // namespace
+
+std::vector<double> FanArc::borders_w(double longest_w, double longest_s) const {
   std::vector<double> marks{arc_.begin};
-  if (fan_->has_plane) {
-    const Crossings zeros = crossings(arc_, cross(fan_->centre, fan_->in_plane));
-    for (std::size_t i = 0; i < zeros.count; ++i) marks.push_back(zeros.s[i]);
+  if (fan_->layer > 0) {
+    const Vec3d b0 = normalised(arc_.at(arc_.begin)), b1 = normalised(arc_.at(arc_.end));
+    const double step = 1e-3 * (arc_.end - arc_.begin);
+    const double slope0 = (normalised(arc_.at(arc_.begin + step)).z - b0.z) / step;
+    const double slope1 = (normalised(arc_.at(arc_.end - step)).z - b1.z) / step;
+    add_layers(marks, arc_.begin, arc_.end, b0.z, slope0, fan_->layer);
+    add_layers(marks, arc_.end, arc_.begin, b1.z, slope1, fan_->layer);
+    std::sort(marks.begin(), marks.end());
   }
   marks.push_back(arc_.end);
   std::vector<double> borders{w_of(marks[0])};
@@ -26,10 +91,35 @@ std::vector<double> FanArc::borders(double longest_w, double longest_s) const {
   return borders;
 }
 
+Vec3d FanArc::direction(const Row& row, double tau) const {
+  const double q = row.a * std::sinh(row.u * tau);
+  return (fan_->centre * (1 - q * q) + row.e * (2 * q)) / (1 + q * q);
+}
+
+std::vector<double> FanArc::borders_tau(double w, double longest_u) const {
+  const Row at = row(w);
+  std::vector<double> marks{0};
+  if (fan_->layer > 0) {
+    constexpr double step = 1e-3;
+    const double low = direction(at, 0).z, high = direction(at, 1).z;
+    add_layers(marks, 0, 1, low, (direction(at, step).z - low) / step, fan_->layer);
+    add_layers(marks, 1, 0, high, (direction(at, 1 - step).z - high) / step, fan_->layer);
+    std::sort(marks.begin(), marks.end());
+  }
+  marks.push_back(1);
+  std::vector<double> borders{0};
+  for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
+    const double t0 = marks[i], t1 = marks[i + 1];
+    const int n = std::max(1, static_cast<int>(std::ceil((t1 - t0) * at.u / longest_u)));
+    for (int j = 1; j <= n; ++j) borders.push_back(t0 + (t1 - t0) * j / n);
+  }
+  return borders;
+}
+
 FanArc::Row FanArc::row(double w) const {
   double sh, ch;
   sinh_cosh(w, sh, ch);
-  const double s = nearest_ + scale_ * sh;
+  const double s = pivot_ + scale_ * sh;
   const double cs = std::cos(s), sn = std::sin(s);
   const Vec3d b = arc_.centre + arc_.u * cs + arc_.v * sn, tangent = arc_.v * cs - arc_.u * sn;
   const Vec3d& c = fan_->centre;
@@ -52,7 +142,7 @@ FanArc::Row FanArc::row(double w) const {
 
 FanRule fan_rule_for(double relative) {
   if (relative >= 2e-4) return {&kronrod5(), 3, 1.7, 3.2, 4};
-  if (relative >= 1e-7) return {&kronrod7(), 3, 1.7, 3.2, 8};
+  if (relative >= 1e-7) return {&kronrod7(), 3, 1.7, 3.2, 16};
   return {&kronrod15(), 4, 3.2, 5, 60};
 }
 

@@ -27,19 +27,21 @@ struct Fan {
   double lobe = 1;             // half angle of the lobe in the plane of incidence, as tan(angle / 2)
   double lobe_across = 1;      // across that plane
   Vec3d in_plane;              // unit, across the centre: the direction of the plane of incidence there
-  bool has_plane = false;      // cells are split along that plane
+  double ridge = 1;            // the lobe is a ridge along that plane, this wide in azimuth; 1: it is none
+  double layer = 0;            // the integrand bends within this height above the horizon (masking: alpha); 0: nowhere
   int adjacent[2] = {-1, -1};  // arcs through the centre that are great circles: they enclose nothing with it
   std::size_t index = 0;       // of the outline (each_outline)
 };
 
-// One arc of one fan in its own variable w.
+// A piece of an arc of a fan in its own variable w: s = pivot + scale sinh(w).
 class FanArc {
  public:
-  FanArc(const Fan& fan, const Arc& arc);
+  FanArc(const Fan& fan, const Arc& arc, double pivot, double scale) : fan_(&fan), arc_(arc), pivot_(pivot), scale_(scale) {}
 
   const Fan& fan() const { return *fan_; }
-  // Cells to begin with: borders in w.
-  std::vector<double> borders(double longest_w, double longest_s) const;
+  // Borders of the first cells in w, and in tau for a cell whose middle is at w.
+  std::vector<double> borders_w(double longest_w, double longest_s) const;
+  std::vector<double> borders_tau(double w, double longest_u) const;
 
   // All that a row of nodes at one w has in common.
   struct Row {
@@ -48,14 +50,18 @@ class FanArc {
     double a, u;    // lobe scale and asinh(Q / a)
   };
   Row row(double w) const;
+  Vec3d direction(const Row& row, double tau) const;
 
  private:
-  double w_of(double s) const { return std::asinh((s - nearest_) / scale_); }
+  double w_of(double s) const { return std::asinh((s - pivot_) / scale_); }
 
   const Fan* fan_;
   Arc arc_;
-  double nearest_ = 0, scale_ = 1;
+  double pivot_, scale_;
 };
+
+// The pieces of all arcs: graded towards the closest approach to the centre and, on a ridge, towards its plane.
+std::vector<FanArc> pieces_of(const Fan& fan);
 
 // sinh and cosh without loss of digits near 0.
 inline void sinh_cosh(double x, double& sinh_x, double& cosh_x) {
@@ -78,13 +84,15 @@ struct FanRule {
 };
 FanRule fan_rule_for(double relative);
 
-// From the difference d of both rules and the cell's absolute integral r to a bound on the error of the better one. Gauss n has the
-// degree 2 n - 1, its Kronrod extension 3 n + 1 or more: where the integrand is resolved, (d / r)^(3/2) lies above the error that is
-// left (Piessens et al. 1983, QUADPACK, use the same power).
-inline double error_of(double d, double r, double scale) {
-  if (!(r > 0)) return d;
-  const double x = d / r;
-  return r * std::min(x, scale * x * std::sqrt(x));
+// From what a rule sees of the highest degrees to a bound on its error: `even` is the difference to the embedded Gauss rule n, which is
+// exact to degree 2 n - 1, `odd` the part of degree 2 n - 1 (quadrature.h), r the integral of the absolute value. Kronrod's rule is exact
+// to degree 3 n + 1. Where the coefficients of a resolved integrand fall like rho^-k, even / r is rho^-2n, odd / r is rho^(1 - 2n) and
+// the error about rho^-(3 n + 2): the powers 3/2 (as in QUADPACK, Piessens et al. 1983) and 2 lie above it. Two sums of different parity
+// do not vanish by the same accident.
+inline double error_of(double even, double odd, double r, double scale) {
+  if (!(r > 0)) return even;
+  const double x = even / r, y = odd / r;
+  return r * std::min(std::max(x, y), scale * std::max(x * std::sqrt(x), y * y));
 }
 
 struct FanCell {
@@ -105,20 +113,22 @@ class FanIntegrator {
       : f_(integrand), tolerance_(tolerance), rule_(fan_rule_for(tolerance.relative)) {}
 
   Estimate integrate(const std::vector<Fan>& fans) {
-    for (const Fan& fan : fans) add(fan);
+    for (const Fan& fan : fans) {
+      const std::vector<FanArc> pieces = pieces_of(fan);
+      arcs_.insert(arcs_.end(), pieces.begin(), pieces.end());
+    }
     std::vector<FanCell> cells;
     for (std::uint32_t i = 0; i < arcs_.size(); ++i) {
-      const std::vector<double> borders = arcs_[i].borders(rule_.longest_w, rule_.longest_s);
-      for (std::size_t j = 0; j + 1 < borders.size(); ++j) {
-        const double u = arcs_[i].row(0.5 * (borders[j] + borders[j + 1])).u;
-        const int layers = std::max(1, static_cast<int>(std::ceil(u / rule_.longest_u)));
-        for (int k = 0; k < layers; ++k) {
+      const std::vector<double> w = arcs_[i].borders_w(rule_.longest_w, rule_.longest_s);
+      for (std::size_t j = 0; j + 1 < w.size(); ++j) {
+        const std::vector<double> tau = arcs_[i].borders_tau(0.5 * (w[j] + w[j + 1]), rule_.longest_u);
+        for (std::size_t k = 0; k + 1 < tau.size(); ++k) {
           FanCell cell;
           cell.arc = i;
-          cell.w0 = borders[j];
-          cell.w1 = borders[j + 1];
-          cell.t0 = static_cast<double>(k) / layers;
-          cell.t1 = static_cast<double>(k + 1) / layers;
+          cell.w0 = w[j];
+          cell.w1 = w[j + 1];
+          cell.t0 = tau[k];
+          cell.t1 = tau[k + 1];
           evaluate(cell);
           cells.push_back(cell);
         }
@@ -138,12 +148,6 @@ class FanIntegrator {
   }
 
  private:
-  void add(const Fan& fan) {
-    for (int i = 0; i < static_cast<int>(fan.contour.size()); ++i) {
-      if (i != fan.adjacent[0] && i != fan.adjacent[1]) arcs_.emplace_back(fan, fan.contour[static_cast<std::size_t>(i)]);
-    }
-  }
-
   // Error that is still too large, in units of what is aimed at, on the worst channel.
   static double excess(const Rgb& error, const Rgb& aim) {
     const auto part = [](double e, double a) { return e > 0 ? e / std::max(a, 1e-300) : 0; };
@@ -210,11 +214,12 @@ class FanIntegrator {
     const auto n = static_cast<std::size_t>(rule.count);
     const double w_half = 0.5 * (cell.w1 - cell.w0), w_mid = 0.5 * (cell.w1 + cell.w0);
     const double t_half = 0.5 * (cell.t1 - cell.t0), t_mid = 0.5 * (cell.t1 + cell.t0);
-    Rgb fine, coarse_w, coarse_t, size;  // Kronrod both ways, Gauss along w, Gauss along tau, integral of the absolute value
+    // Kronrod both ways, Gauss along w, Gauss along tau, odd parts, integral of the absolute value.
+    Rgb fine, coarse_w, coarse_t, odd_w, odd_t, size;
     for (std::size_t i = 0; i < n; ++i) {
       const FanArc::Row row = arc.row(w_mid + w_half * rule.nodes[i].x);
       if (row.weight == 0) continue;
-      Rgb row_fine, row_coarse, row_size;
+      Rgb row_fine, row_coarse, row_odd, row_size;
       for (std::size_t j = 0; j < n; ++j) {
         double sh, ch;
         sinh_cosh(row.u * (t_mid + t_half * rule.nodes[j].x), sh, ch);
@@ -223,12 +228,15 @@ class FanIntegrator {
         const Rgb value = f_(p, fan.index) * (4 * q * inverse * inverse * ch);
         row_fine += value * rule.nodes[j].weight;
         if (rule.nodes[j].gauss > 0) row_coarse += value * rule.nodes[j].gauss;
+        row_odd += value * rule.nodes[j].odd;
         row_size += Rgb{std::abs(value.x), std::abs(value.y), std::abs(value.z)} * rule.nodes[j].weight;
       }
       evaluations_ += n;
       const double scale = row.weight * row.a * row.u;
       fine += row_fine * (scale * rule.nodes[i].weight);
       coarse_t += row_coarse * (scale * rule.nodes[i].weight);
+      odd_t += row_odd * (scale * rule.nodes[i].weight);
+      odd_w += row_fine * (scale * rule.nodes[i].odd);
       if (rule.nodes[i].gauss > 0) coarse_w += row_fine * (scale * rule.nodes[i].gauss);
       size += row_size * (std::abs(scale) * rule.nodes[i].weight);
     }
@@ -237,9 +245,11 @@ class FanIntegrator {
     for (int c = 0; c < 3; ++c) {
       const double d_w = std::abs(fine[c] - coarse_w[c]), d_t = std::abs(fine[c] - coarse_t[c]);
       cell.value[c] = fine[c] * jacobian;
-      cell.error[c] = (error_of(d_w, size[c], rule_.error_scale) + error_of(d_t, size[c], rule_.error_scale)) * jacobian;
-      worst_w = std::max(worst_w, d_w);
-      worst_t = std::max(worst_t, d_t);
+      const double along_w = error_of(d_w, std::abs(odd_w[c]), size[c], rule_.error_scale);
+      const double along_t = error_of(d_t, std::abs(odd_t[c]), size[c], rule_.error_scale);
+      cell.error[c] = (along_w + along_t) * jacobian;
+      worst_w = std::max(worst_w, along_w);
+      worst_t = std::max(worst_t, along_t);
     }
     cell.split_w = worst_w > worst_t;
   }

@@ -79,7 +79,8 @@ void centre_at_lobe(Fan& fan, const Vec3d& view, double alpha) {
   const Vec3d& c = fan.centre;
   const Vec3d meridian = Vec3d{0, 0, 1} - c * c.z;
   fan.in_plane = dot(meridian, meridian) > 1e-20 ? normalised(meridian) : basis_around(c).tangent;
-  fan.has_plane = view.z < 0.4 && away < alpha;
+  if (view.z < 0.4 && away < alpha) fan.ridge = view.z;
+  if (alpha < 0.5) fan.layer = alpha;
 }
 
 struct Scaled {
