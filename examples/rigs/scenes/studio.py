@@ -178,10 +178,10 @@ def rig():
         {"name": "spill", "shape": {"type": "environment"}, "emission": {"luminance": "30 nit"}, "colour": {"temperature": "4500 K"}},
     ]
     materials = [
-        {"name": "copper", "model": "conductor", "eta": [0.2004, 0.9240, 1.1022], "k": [3.9129, 2.4528, 2.1422], "alpha": 0.14},
+        {"name": "copper", "model": "conductor", "eta": [0.2004, 0.9240, 1.1022], "k": [3.9129, 2.4528, 2.1422], "alpha": 0.11},
         {"name": "brass", "model": "conductor", "f0": [0.887, 0.789, 0.434], "alpha": 0.16},
         {"name": "chrome", "model": "conductor", "eta": [3.18, 3.18, 2.33], "k": [3.31, 3.33, 3.14], "alpha": 0.10},
     ]
     objects = [{"gltf": "studio.glb"}] + [{"gltf": f"studio_{name}.glb", "material": name} for name in ("copper", "brass", "chrome")]
-    camera = {"position": [0.08, 0.42, 2.35], "target": [0.0, 0.325, 0.0], "vfov": "26 deg", "exposure": {"ev100": 8.3}}
+    camera = {"position": [0.08, 0.42, 2.35], "target": [0.0, 0.300, 0.0], "vfov": "24 deg", "exposure": {"ev100": 8.3}}
     return rig_file(lights, camera, objects, materials)

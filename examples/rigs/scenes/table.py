@@ -311,7 +311,7 @@ def desk_lamp(model):
     model.add("desk lamp", "enamel", hung(revolve(shade, 48)))
     model.add("desk lamp", "enamel white", hung(revolve(inside, 48)))
     model.add(
-        "desk lamp", "brass", hung(revolve([(0.0145, 0.026), (0.0145, 0.037), (0, 0.037)], 24)), hung(cylinder(0.012, 0.018, 20).at(0, 0.079, 0))
+        "desk lamp", "brass", hung(revolve([(0.0145, 0.0305), (0.0145, 0.037), (0, 0.037)], 24)), hung(cylinder(0.012, 0.018, 20).at(0, 0.079, 0))
     )
     top = tuple(b + 0.095 * (b - t) / math.dist(BULB, LAMP_TARGET) for b, t in zip(BULB, LAMP_TARGET))
     elbow, foot = (0.50, 0.585, -0.20), (0.46, 0.03, -0.26)
