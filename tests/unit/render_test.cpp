@@ -101,7 +101,7 @@ TEST(Render, PointLightOnALambertFloorIsTheCosineLawOverThePixelsArea) {
       const Vec3d to = lamp - p;
       return 0.5 / pi * 100 * to.y / std::pow(dot(to, to), 1.5);
     });
-    ASSERT_NEAR(green(out.picture, "", i), expected, 2e-5 * expected) << i;
+    ASSERT_NEAR(green(out.picture, "", i), expected, 4e-5 * expected) << i;
   }
   EXPECT_EQ(out.stats.split_pixels, 0u);
 }
@@ -118,8 +118,8 @@ TEST(Render, RectangleOnALambertFloorIsTheClosedFormIlluminance) {
     const double expected = pixel_mean(scene.cameras[0], options, i, [&](const Vec3d& p) {
       return 0.5 / pi * eval::illuminance(*emitter, p, {0, 1, 0}).y;
     });
-    // Pixels are as large as a tenth of the light's height: 2e-5 is the quadratures' fourth derivatives.
-    ASSERT_NEAR(green(out.picture, "", i), expected, 2e-5 * expected) << i;
+    // Pixels are as large as a tenth of the light's height: 4e-5 leaves room for the quadratures' fourth derivatives.
+    ASSERT_NEAR(green(out.picture, "", i), expected, 4e-5 * expected) << i;
   }
 }
 
