@@ -110,8 +110,7 @@ using Put = std::function<void(std::size_t, const std::byte*)>;
 Status apply_sparse(Asset& asset, const tinygltf::Accessor& accessor, const Layout& layout, const std::string& pointer, const Put& put) {
   const auto& sparse = accessor.sparse;
   const std::size_t index_size = component_size(sparse.indices.componentType);
-  if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > layout.count || index_size == 0 || sparse.indices.byteOffset < 0 ||
-      sparse.values.byteOffset < 0)
+  if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > layout.count || index_size == 0)
     return asset.failure("ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE",
                          fmt::format("expected 1 to {} sparse elements, found {}", layout.count, sparse.count), pointer + "/sparse");
   const auto count = static_cast<std::size_t>(sparse.count);

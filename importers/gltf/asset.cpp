@@ -16,11 +16,19 @@ namespace {
 
 using Json = nlohmann::json;
 
-// tinygltf asks these for every file that it wants to see: there are none.
-bool no_file_exists(const std::string&, void*) { return false; }
-std::string path_as_it_is(const std::string& path, void*) { return path; }
-bool read_nothing(std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; }
-bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
+// tinygltf may ask these for files: there are none, and no path is expanded.
+template <class Callbacks>
+Callbacks no_files() {
+  Callbacks callbacks{};
+  callbacks.FileExists = [](const std::string&, void*) { return false; };
+  callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
+  callbacks.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; };
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; };
+  // Since tinygltf 2.9, which refuses callbacks without it.
+  if constexpr (requires { callbacks.GetFileSizeInBytes; })
+    callbacks.GetFileSizeInBytes = [](std::size_t*, std::string*, const std::string&, void*) { return false; };
+  return callbacks;
+}
 bool ignore_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) { return true; }
 
 constexpr std::size_t max_json_bytes = std::size_t{1} << 29;
@@ -129,7 +137,7 @@ void Asset::load_model() {
   Json structure = root;
   for (const char* bytes : {"buffers", "images", "extensions", "animations", "skins", "extras"}) structure.erase(bytes);
   tinygltf::TinyGLTF loader;
-  loader.SetFsCallbacks({no_file_exists, path_as_it_is, read_nothing, write_nothing, nullptr});
+  loader.SetFsCallbacks(no_files<tinygltf::FsCallbacks>());
   loader.SetImageLoader(ignore_image, nullptr);
   std::string problems, remarks;
   bool loaded = false;

@@ -100,7 +100,7 @@ class Checker {
       if (!content.is_object()) {
         wrong_type(content, Kind::object, here);
       } else {
-        object(content, type + "." + name, here);
+        object(content, fmt::format("{}.{}", type, name), here);
       }
     }
   }

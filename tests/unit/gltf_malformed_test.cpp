@@ -1,6 +1,7 @@
 // Broken and hostile glTF: an error that names the place, and nothing read that should not be.
 #include <functional>
 #include <ostream>
+#include <random>
 
 #include "gltf_builder.h"
 
@@ -282,6 +283,55 @@ TEST(GltfMalformed, BrokenContainers) {
   ASSERT_FALSE(old.ok());
   EXPECT_EQ(old.error().code, "UNKNOWN_ASSET_MAJOR_VERSION");
   EXPECT_EQ(old.error().where.pointer, "/asset/version");
+}
+
+// Bytes changed, removed and repeated at random (the same ones every time): whatever comes out, it comes back, and what passes for a
+// scene without errors is one.
+TEST(GltfMalformed, RandomDamageIsSurvived) {
+  const Folder folder;
+  GltfBuilder gltf;
+  gltf.triangle();
+  gltf.primitive()["indices"] = gltf.indices<std::uint16_t>({0, 1, 2});
+  gltf.primitive()["attributes"]["TEXCOORD_0"] = gltf.floats({0, 0, 1, 0, 0, 1}, "VEC2");
+  gltf.primitive()["material"] = 0;
+  gltf.json["materials"] = Json::parse(R"([{"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}}])");
+  gltf.json["textures"] = Json::parse(R"([{"source": 0}])");
+  gltf.json["images"] = Json::array({{{"bufferView", gltf.view<std::uint8_t>({1, 2, 3})}, {"mimeType", "image/png"}}});
+  gltf.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+  gltf.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "spot", "spot": {"outerConeAngle": 0.5}}])");
+  gltf.json["nodes"][0]["children"] = {1};
+  gltf.json["nodes"].push_back({{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  std::mt19937 random(20240607);
+  const auto below = [&](std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random); };
+  int without_errors = 0;
+  for (int round = 0; round < 600; ++round) {
+    std::string bytes = round % 2 == 0 ? gltf.text() : gltf.glb();
+    for (std::size_t change = 0; change <= below(3); ++change) {
+      const std::size_t at = below(bytes.size());
+      const char digits[] = "0123456789-.e\"[]{},: ";
+      switch (below(4)) {
+        case 0:
+          bytes[at] = static_cast<char>(below(256));
+          break;
+        case 1:
+          bytes[at] = digits[below(sizeof digits - 1)];
+          break;
+        case 2:
+          bytes.erase(at, 1 + below(8));
+          break;
+        default:
+          bytes.insert(at, bytes.substr(below(bytes.size()), below(32)));
+      }
+    }
+    const auto imported = read_gltf(folder.write("damaged.gltf", bytes));
+    if (!imported.ok() || imported->diagnostics.has_errors()) continue;
+    ++without_errors;
+    const Diagnostics faults = validate(imported->scene);
+    EXPECT_FALSE(faults.has_errors()) << all_text(faults) << bytes;
+  }
+  EXPECT_GT(without_errors, 0);  // changes of names and white space hurt nothing
+  EXPECT_LT(without_errors, 600);
 }
 
 }  // namespace
