@@ -125,7 +125,6 @@ Status write_rect(Writer& writer, const LightEntry& entry, const RectShape& rect
 Status write_polygon(Writer& writer, const LightEntry& entry, const PolygonShape& polygon) {
   Mesh mesh = polygon_mesh(polygon);
   if (is_textured(entry)) set_planar_uvs(mesh);
-  if (mesh.indices.empty()) return unsupported("light '" + entry.light.name + "': the polygon crosses itself", entry.light.source);
   return write_mesh_body(writer, entry, std::move(mesh), entry.resolved.rgb);
 }
 

@@ -1,7 +1,20 @@
 #include "environment_rows.h"
+#include "etendue/eval.h"
 #include "lights.h"
 
 namespace etendue::mitsuba {
+namespace {
+
+// cd/m2 of a pixel value 1. A map with a stated luminance or illuminance has it in the mean over the sphere, as in our evaluation.
+Rgb scale_of(const Light& light, const Rgb& resolved, const DecodedImage& image) {
+  if (light.emission.given == Emission::Given::as_file) return resolved;
+  std::vector<Vec3f> pixels;
+  for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) pixels.push_back({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
+  const double mean = eval::mean_luminance(*eval::make_environment(image.width, image.height, std::move(pixels)));
+  return mean > 0 ? resolved / mean : Rgb{};
+}
+
+}  // namespace
 
 Status write_environment(Writer& writer, const LightEntry& entry, const EnvironmentShape& environment) {
   if (!environment.image) {
@@ -10,7 +23,7 @@ Status write_environment(Writer& writer, const LightEntry& entry, const Environm
   }
   Result<DecodedImage> image = decode(writer.scene.images[*environment.image], Encoding::linear);
   if (!image) return image.error();
-  std::vector<float> rgb = rows_aligned_with_poles(*image, entry.resolved.rgb);
+  std::vector<float> rgb = rows_aligned_with_poles(*image, scale_of(entry.light, entry.resolved.rgb, *image));
   Result<std::string> file = writer.assets.add_picture(image->width, 2 * image->height + 1, std::move(rgb));
   if (!file) return file.error();
   pugi::xml_node emitter = add_plugin(writer.root, "emitter", "envmap", entry.id);

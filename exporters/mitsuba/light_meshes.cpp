@@ -1,37 +1,12 @@
 #include "light_meshes.h"
 
+#include "eval/triangulate.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace etendue::mitsuba {
 namespace {
-
-double cross2(const Vec2d& a, const Vec2d& b, const Vec2d& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
-
-double signed_area(const std::vector<Vec2d>& points) {
-  double twice = 0;
-  for (std::size_t i = 0, n = points.size(); i < n; ++i) {
-    const Vec2d& a = points[i];
-    const Vec2d& b = points[(i + 1) % n];
-    twice += a.x * b.y - a.y * b.x;
-  }
-  return twice / 2;
-}
-
-// Corner b of the counter-clockwise polygon `rest` is an ear: convex, and no other corner lies in its triangle.
-bool is_ear(const std::vector<Vec2d>& points, const std::vector<std::uint32_t>& rest, std::size_t at) {
-  const std::size_t n = rest.size();
-  const std::uint32_t ia = rest[(at + n - 1) % n], ib = rest[at], ic = rest[(at + 1) % n];
-  const Vec2d &a = points[ia], &b = points[ib], &c = points[ic];
-  if (cross2(a, b, c) <= 0) return false;
-  for (const std::uint32_t i : rest) {
-    const Vec2d& p = points[i];
-    if (i == ia || i == ib || i == ic || p == a || p == b || p == c) continue;
-    if (cross2(a, b, p) >= 0 && cross2(b, c, p) >= 0 && cross2(c, a, p) >= 0) return false;
-  }
-  return true;
-}
 
 // Rings of a surface of revolution about X: position along X and distance from it.
 struct Ring {
@@ -108,29 +83,11 @@ double equivalent_radius(const TubeShape& tube) {
 }  // namespace
 
 Mesh polygon_mesh(const PolygonShape& polygon) {
-  std::vector<std::uint32_t> rest(polygon.points.size());
-  std::iota(rest.begin(), rest.end(), 0u);
-  if (signed_area(polygon.points) < 0) std::reverse(rest.begin(), rest.end());
+  const bool clockwise = eval::signed_area(polygon.points) < 0;
   Mesh mesh;
-  while (rest.size() >= 3) {
-    std::size_t ear = 0;
-    while (ear < rest.size() && !is_ear(polygon.points, rest, ear)) ++ear;
-    if (ear == rest.size()) {
-      // Corners on a straight line enclose nothing: one of them may go.
-      std::size_t flat = 0;
-      const auto turn = [&](std::size_t i) {
-        return cross2(polygon.points[rest[(i + rest.size() - 1) % rest.size()]], polygon.points[rest[i]],
-                      polygon.points[rest[(i + 1) % rest.size()]]);
-      };
-      while (flat < rest.size() && turn(flat) != 0) ++flat;
-      if (flat == rest.size()) return {};
-      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(flat));
-      continue;
-    }
-    const std::uint32_t a = rest[(ear + rest.size() - 1) % rest.size()], b = rest[ear], c = rest[(ear + 1) % rest.size()];
+  for (const auto& [a, b, c] : eval::triangulate(polygon.points)) {
     // Counter-clockwise in XY faces +Z; the light faces -Z.
-    mesh.indices.insert(mesh.indices.end(), {a, c, b});
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
+    mesh.indices.insert(mesh.indices.end(), {a, clockwise ? b : c, clockwise ? c : b});
   }
   for (const Vec2d& p : polygon.points) mesh.positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), 0});
   return mesh;

@@ -6,7 +6,7 @@
 
 namespace etendue::mitsuba {
 
-// The front (counter-clockwise) faces -Z. A simple polygon of either winding, by ear clipping. Empty if it is not simple.
+// The front (counter-clockwise) faces -Z. A simple polygon of either winding.
 Mesh polygon_mesh(const PolygonShape& polygon);
 
 // 256 sides; round caps of 64 rings each. The radius is scaled so that the area is that of the true surface.
