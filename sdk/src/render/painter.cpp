@@ -209,7 +209,11 @@ LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, do
     out.value += (centre_[pixel] + bend->correction) * beta;
     return out;
   }
-  return {gauss_legendre(x, y, beta, bend && bend->relative > steep ? 3 : 2, counts), {}};
+  const Rgb finer = gauss_legendre(x, y, beta, bend && bend->relative > steep ? 3 : 2, counts);
+  // Where the light is smooth, the finer rule's error is under a tenth of the difference; at a kink it is up to a third.
+  if (bend) out.variance = squared((out.value + (centre_[pixel] + bend->correction) * beta - finer) / 4.0);
+  out.value = finer;
+  return out;
 }
 
 LightPainter::Measured LightPainter::split(const Regions& regions, double beta, RayCounts& counts) const {

@@ -9,7 +9,7 @@ namespace etendue::rendering {
 
 inline constexpr std::uint64_t nothing_key = 1;
 struct Probe {
-  std::uint64_t key = 0;  // nothing_key, or made of thing, part of it, side, and the state of every punctual light
+  std::uint64_t key = 0;  // nothing_key, or made of thing, part of it, side, and for every light: its state if punctual, its side if flat
   std::optional<SurfacePoint> point;
 };
 
