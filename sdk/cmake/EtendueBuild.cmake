@@ -28,6 +28,10 @@ if(ETENDUE_SANITISE)
   target_compile_options(etendue_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(etendue_flags INTERFACE -fsanitize=address,undefined)
 endif()
+# Coverage for the fuzz targets, in every library.
+if(ETENDUE_FUZZ AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  target_compile_options(etendue_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # etendue_library(NAME LINK targets...): a static library from the *.cpp of the current folder; a new file needs no edit here.
 function(etendue_library name)
