@@ -1,5 +1,7 @@
 #include "fan.h"
 
+#include <array>
+
 namespace etendue::eval {
 
 namespace {
@@ -16,6 +18,55 @@ Arc part_of(const Arc& arc, double begin, double end) {
   return part;
 }
 
+// A rim seen at a slant is a thin ellipse and may come close to the centre on both sides. Cut where it is farthest, each part has one
+// closest approach. (Great circles and circles of caps have one as they are.)
+std::vector<Arc> with_one_approach(const Arc& arc, const Vec3d& c) {
+  if (arc.unit) return {arc};
+  constexpr int samples = 32;
+  std::array<double, samples + 1> distance2{};
+  const double step = (arc.end - arc.begin) / samples;
+  for (int i = 0; i <= samples; ++i) {
+    const Vec3d d = normalised(arc.at(arc.begin + step * i)) - c;
+    distance2[static_cast<std::size_t>(i)] = dot(d, d);
+  }
+  std::vector<Arc> parts;
+  double begin = arc.begin;
+  for (std::size_t i = 1; i < samples; ++i) {
+    if (!(distance2[i] > distance2[i - 1] && distance2[i] >= distance2[i + 1])) continue;
+    const double at = arc.begin + step * static_cast<double>(i);
+    parts.push_back(part_of(arc, begin, at));
+    begin = at;
+  }
+  parts.push_back(part_of(arc, begin, arc.end));
+  return parts;
+}
+
+void add_pieces(std::vector<FanArc>& pieces, const Fan& fan, const Arc& arc, double lobe) {
+  const Nearest nearest = nearest_to(arc, fan.centre);
+  const double scale = std::max(nearest.distance, lobe) / std::max(nearest.speed, 1e-300);
+  Crossings ridges;
+  if (fan.ridge < 1) ridges = crossings(arc, cross(fan.centre, fan.in_plane));
+  // Each crossing of the ridge owns the part of the arc up to halfway (in w) to the closest approach or to the other crossing.
+  const auto halfway = [&](double s, double t) {
+    const double w = 0.5 * (std::asinh((s - nearest.s) / scale) + std::asinh((t - nearest.s) / scale));
+    return nearest.s + scale * std::sinh(w);
+  };
+  double begin = arc.begin;
+  for (std::size_t k = 0; k < ridges.count; ++k) {
+    const double at = ridges.s[k];
+    double lo = at > nearest.s ? halfway(nearest.s, at) : arc.begin, hi = at < nearest.s ? halfway(at, nearest.s) : arc.end;
+    if (k > 0) lo = std::max(lo, halfway(ridges.s[0], at));
+    if (k + 1 < ridges.count) hi = std::min(hi, halfway(at, ridges.s[1]));
+    const double width = std::min(fan.ridge / std::max(azimuth_speed(arc, fan.centre, at), 1e-300), scale);
+    if (lo > begin) pieces.emplace_back(fan, part_of(arc, begin, lo), nearest.s, scale);
+    lo = std::max(lo, begin);
+    if (at > lo) pieces.emplace_back(fan, part_of(arc, lo, at), at, width);
+    if (hi > at) pieces.emplace_back(fan, part_of(arc, at, hi), at, width);
+    begin = std::max(begin, hi);
+  }
+  if (arc.end > begin) pieces.emplace_back(fan, part_of(arc, begin, arc.end), nearest.s, scale);
+}
+
 }  // namespace
 
 std::vector<FanArc> pieces_of(const Fan& fan) {
@@ -23,30 +74,7 @@ std::vector<FanArc> pieces_of(const Fan& fan) {
   const double lobe = 2 * std::sqrt(fan.lobe * fan.lobe_across);
   for (int i = 0; i < static_cast<int>(fan.contour.size()); ++i) {
     if (i == fan.adjacent[0] || i == fan.adjacent[1]) continue;
-    const Arc& arc = fan.contour[static_cast<std::size_t>(i)];
-    const Nearest nearest = nearest_to(arc, fan.centre);
-    const double scale = std::max(nearest.distance, lobe) / std::max(nearest.speed, 1e-300);
-    Crossings ridges;
-    if (fan.ridge < 1) ridges = crossings(arc, cross(fan.centre, fan.in_plane));
-    // Each crossing of the ridge owns the part of the arc up to halfway (in w) to the closest approach or to the other crossing.
-    const auto halfway = [&](double s, double t) {
-      const double w = 0.5 * (std::asinh((s - nearest.s) / scale) + std::asinh((t - nearest.s) / scale));
-      return nearest.s + scale * std::sinh(w);
-    };
-    double begin = arc.begin;
-    for (std::size_t k = 0; k < ridges.count; ++k) {
-      const double at = ridges.s[k];
-      double lo = at > nearest.s ? halfway(nearest.s, at) : arc.begin, hi = at < nearest.s ? halfway(at, nearest.s) : arc.end;
-      if (k > 0) lo = std::max(lo, halfway(ridges.s[0], at));
-      if (k + 1 < ridges.count) hi = std::min(hi, halfway(at, ridges.s[1]));
-      const double width = std::min(fan.ridge / std::max(azimuth_speed(arc, fan.centre, at), 1e-300), scale);
-      if (lo > begin) pieces.emplace_back(fan, part_of(arc, begin, lo), nearest.s, scale);
-      lo = std::max(lo, begin);
-      if (at > lo) pieces.emplace_back(fan, part_of(arc, lo, at), at, width);
-      if (hi > at) pieces.emplace_back(fan, part_of(arc, at, hi), at, width);
-      begin = std::max(begin, hi);
-    }
-    if (arc.end > begin) pieces.emplace_back(fan, part_of(arc, begin, arc.end), nearest.s, scale);
+    for (const Arc& arc : with_one_approach(fan.contour[static_cast<std::size_t>(i)], fan.centre)) add_pieces(pieces, fan, arc, lobe);
   }
   return pieces;
 }
@@ -143,7 +171,7 @@ FanArc::Row FanArc::row(double w) const {
 FanRule fan_rule_for(double relative) {
   if (relative >= 2e-4) return {&kronrod5(), 3, 1.7, 3.2, 4};
   if (relative >= 1e-7) return {&kronrod7(), 3, 1.7, 3.2, 16};
-  return {&kronrod15(), 4, 3.2, 5, 60};
+  return {&kronrod15(), 4, 3.2, 5, 400};
 }
 
 }  // namespace etendue::eval
