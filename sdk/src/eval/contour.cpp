@@ -49,6 +49,21 @@ double chord2(const Arc& arc, const Vec3d& c, double s) {
 
 }  // namespace
 
+// Sine and cosine are turned from step to step.
+std::vector<double> squared_chords(const Arc& arc, const Vec3d& c, int count) {
+  const double step = (arc.end - arc.begin) / count, turn_c = std::cos(step), turn_s = std::sin(step);
+  double cs = std::cos(arc.begin), sn = std::sin(arc.begin);
+  std::vector<double> chords(static_cast<std::size_t>(count) + 1);
+  for (double& chord : chords) {
+    const Vec3d d = normalised(arc.centre + arc.u * cs + arc.v * sn) - c;
+    chord = dot(d, d);
+    const double next = cs * turn_c - sn * turn_s;
+    sn = sn * turn_c + cs * turn_s;
+    cs = next;
+  }
+  return chords;
+}
+
 // On circles with |b| = 1 the closest point is where u cos s + v sin s points along c; elsewhere a search: samples, then thirds.
 Nearest nearest_to(const Arc& arc, const Vec3d& c) {
   double s = 0;
@@ -59,14 +74,10 @@ Nearest nearest_to(const Arc& arc, const Vec3d& c) {
   } else {
     constexpr int samples = 16;
     const double step = (arc.end - arc.begin) / samples;
-    double best = chord2(arc, c, arc.begin);
-    s = arc.begin;
-    for (int i = 1; i <= samples; ++i) {
-      const double d = chord2(arc, c, arc.begin + step * i);
-      if (d < best) best = d, s = arc.begin + step * i;
-    }
+    const std::vector<double> chords = squared_chords(arc, c, samples);
+    s = arc.begin + step * static_cast<double>(std::min_element(chords.begin(), chords.end()) - chords.begin());
     double lo = std::max(arc.begin, s - step), hi = std::min(arc.end, s + step);
-    for (int i = 0; i < 24; ++i) {
+    for (int i = 0; i < 12; ++i) {
       const double third = (hi - lo) / 3;
       if (chord2(arc, c, lo + third) < chord2(arc, c, hi - third)) {
         hi -= third;

@@ -33,7 +33,10 @@ struct Crossings {
 };
 Crossings crossings(const Arc& arc, const Vec3d& n);
 
-// The closest point of the arc to the unit vector c.
+// Squared chords from the unit vector c to directions of the arc at `count` equal steps from its begin, ends included.
+std::vector<double> squared_chords(const Arc& arc, const Vec3d& c, int count);
+
+// The closest point of the arc to the unit vector c (on rims to a hundredth of a sixteenth of the arc).
 struct Nearest {
   double s = 0, distance = 0;  // parameter, and the chord from c to the direction there
   double speed = 1;            // |d direction / ds| there

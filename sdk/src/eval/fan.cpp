@@ -1,7 +1,5 @@
 #include "fan.h"
 
-#include <array>
-
 namespace etendue::eval {
 
 namespace {
@@ -23,12 +21,8 @@ Arc part_of(const Arc& arc, double begin, double end) {
 std::vector<Arc> with_one_approach(const Arc& arc, const Vec3d& c) {
   if (arc.unit) return {arc};
   constexpr int samples = 32;
-  std::array<double, samples + 1> distance2{};
   const double step = (arc.end - arc.begin) / samples;
-  for (int i = 0; i <= samples; ++i) {
-    const Vec3d d = normalised(arc.at(arc.begin + step * i)) - c;
-    distance2[static_cast<std::size_t>(i)] = dot(d, d);
-  }
+  const std::vector<double> distance2 = squared_chords(arc, c, samples);
   std::vector<Arc> parts;
   double begin = arc.begin;
   for (std::size_t i = 1; i < samples; ++i) {
