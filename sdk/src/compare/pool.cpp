@@ -37,6 +37,7 @@ bool all_have(const std::vector<Picture>& runs, const std::string& layer, int ch
 // mean = sum x / K; variance of the mean = sum (x - mean)^2 / (K (K - 1)), in double, in two passes.
 void pool_layer(const std::vector<Picture>& runs, const std::string& name, int channels, Picture& result) {
   std::vector<const float*> values;
+  values.reserve(runs.size());
   for (const Picture& run : runs) values.push_back(run.find(name)->pixels.data());
   const double count = static_cast<double>(values.size());
   std::vector<float>& mean = result.add(name, channels).pixels;

@@ -40,6 +40,10 @@ void add(ChannelSums& to, const ChannelSums& from) {
 
 std::string span_text(int first, int last) { return first == last ? std::to_string(first + 1) : fmt::format("{}-{}", first + 1, last + 1); }
 
+std::size_t at(int x, int y, int side) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x);
+}
+
 // Blocks of 2 x 2 of the level below, until two a side are left; each region learns its parent.
 void add_blocks(std::vector<Region>& regions, std::vector<int> level, int side, int tiles) {
   int reach = 1;  // tiles a region of this level spans
@@ -48,8 +52,8 @@ void add_blocks(std::vector<Region>& regions, std::vector<int> level, int side, 
     std::vector<int> next(static_cast<std::size_t>(coarse) * static_cast<std::size_t>(coarse), -1);
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
-        const int child = level[static_cast<std::size_t>(y * side + x)];
-        int& parent = next[static_cast<std::size_t>(y / 2 * coarse + x / 2)];
+        const int child = level[at(x, y, side)];
+        int& parent = next[at(x / 2, y / 2, coarse)];
         if (parent < 0) {
           parent = static_cast<int>(regions.size());
           const int x0 = x * reach, y0 = y * reach, last = 2 * reach - 1;
