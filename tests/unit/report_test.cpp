@@ -112,6 +112,13 @@ TEST(Report, SaysTheVerdictInWords) {
   EXPECT_TRUE(contains(differs, "% brighter than Mitsuba"));
 }
 
+TEST(Report, NamesTheLightThatTheSumHides) {
+  Made made = make(1);
+  EXPECT_FALSE(contains(html_of(made), "Taken alone"));
+  made.report.lights[5].comparison.verdict = Verdict::differs;
+  EXPECT_TRUE(contains(html_of(made), "Taken alone, light \u2018tiny\u2019 differs"));
+}
+
 // The data element is JSON, and its difference and ours give the reference back to half a float's last place of each.
 TEST(Report, PicturesComeBack) {
   const Made made = make(1);

@@ -47,7 +47,7 @@ std::string to_html(const Report& report, const Picture& ours, const Picture& re
   using namespace embedded;
   return filled(text_of(report_page, report_page_size), {{"title", escaped(report.title)},
                                                          {"style", std::string(text_of(report_style, report_style_size))},
-                                                         {"verdict", verdict_section(report.comparison)},
+                                                         {"verdict", verdict_section(report.comparison, report.lights)},
                                                          {"regions", regions_section(report.comparison)},
                                                          {"lights", lights_section(report.lights)},
                                                          {"losses", losses_section(report.losses)},

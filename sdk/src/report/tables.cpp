@@ -76,13 +76,19 @@ std::string list_item(const std::string& what, const std::string& more, const ch
 
 }  // namespace
 
-std::string verdict_section(const Comparison& c) {
+std::string verdict_section(const Comparison& c, const std::vector<LightSection>& lights) {
   const Words words = in_words(c);
   std::string html =
       fmt::format(R"(<section class="verdict {}" aria-labelledby="headline"><p class="badge">{}</p><div><h2 id="headline">{}</h2>)",
                   name_of(c.verdict), label_of(c.verdict), escaped(words.headline));
   for (const std::string& line : words.lines) html += "<p>" + escaped(line) + "</p>";
   for (const Finding& finding : c.findings) html += R"(<p class="finding">)" + escaped(finding.text) + "</p>";
+  if (c.verdict != Verdict::differs) {
+    for (const LightSection& light : lights) {
+      if (light.comparison.verdict != Verdict::differs) continue;
+      html += fmt::format(R"(<p class="finding">Taken alone, light ‘{}’ differs; see “Light by light” below.</p>)", escaped(light.name));
+    }
+  }
   return html + "</div></section>";
 }
 

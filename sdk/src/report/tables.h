@@ -7,7 +7,8 @@
 
 namespace etendue::report_detail {
 
-std::string verdict_section(const Comparison& comparison);
+// Also names the lights that differ on their own, which the sum of all may hide.
+std::string verdict_section(const Comparison& comparison, const std::vector<LightSection>& lights);
 std::string regions_section(const Comparison& comparison);
 std::string lights_section(const std::vector<LightSection>& lights);
 std::string losses_section(const std::vector<Loss>& losses);
