@@ -216,31 +216,34 @@ LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, do
   return out;
 }
 
-LightPainter::Measured LightPainter::split(const Regions& regions, double beta, RayCounts& counts) const {
+LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, const Regions& regions, double beta, RayCounts& counts) const {
   struct Region {
     Rgb sum, squares;
     double weight = 0;
     int nodes = 0;
   };
   std::map<std::uint32_t, Region> all;
-  for (const Node& node : regions.nodes) {
-    const Rgb value = at(node.x, node.y, beta, counts);
+  const bool cheap = light_.delta || regions.only_lambert;
+  for (const Node& node : cheap ? regions.nodes : regions.coarse) {
+    const Rgb value = at(x + static_cast<double>(node.x), y + static_cast<double>(node.y), beta, counts);
+    const auto weight = static_cast<double>(node.weight);
     Region& region = all[node.region];
-    region.sum += value;
-    region.squares += squared(value);
-    region.weight += node.weight;
+    region.sum += value * weight;
+    region.squares += squared(value) * weight;
+    region.weight += weight;
     ++region.nodes;
   }
   Measured out;
   Rgb low{infinite, infinite, infinite}, high{};
   for (const auto& [number, region] : all) {
-    const Rgb mean = region.sum / region.nodes;
-    out.value += mean * region.weight;
+    const Rgb mean = region.weight > 0 ? region.sum / region.weight : Rgb{};
+    out.value += region.sum;
     for (int c = 0; c < 3; ++c) {
       low[c] = std::min(low[c], mean[c]);
       high[c] = std::max(high[c], mean[c]);
-      if (region.nodes < 2) continue;
-      const double spread = std::max(0.0, region.squares[c] / region.nodes - mean[c] * mean[c]) / (region.nodes - 1);
+      // Places chosen at random where the surface varies; the others are a quadrature, whose error is far below the areas'.
+      if (cheap || region.nodes < 2) continue;
+      const double spread = std::max(0.0, region.squares[c] / region.weight - mean[c] * mean[c]) / (region.nodes - 1);
       out.variance[c] += region.weight * region.weight * spread;
     }
   }
@@ -273,7 +276,7 @@ void LightPainter::paint_row(std::uint32_t row, RayCounts& counts) {
     const auto centre = stage_.first(camera_.through(x + 0.5, row + 0.5));
     const Regions* regions = survey_.regions(pixel);
     const Surroundings around = surroundings(x, row);
-    const Measured direct = regions != nullptr ? split(*regions, around.beta, counts) : smooth(x, row, around.beta, centre, counts);
+    const Measured direct = regions != nullptr ? split(x, row, *regions, around.beta, counts) : smooth(x, row, around.beta, centre, counts);
     value_[pixel] = direct.value;
     variance_[pixel] = direct.variance;
     if (light_.delta || (regions == nullptr && (!centre || stage_.thing(centre->thing).paint == nullptr))) continue;

@@ -52,7 +52,7 @@ class LightPainter {
   Rgb at(double x, double y, double beta, RayCounts& counts) const;
   Measured smooth(std::uint32_t x, std::uint32_t y, double beta, const std::optional<SurfacePoint>& centre, RayCounts& counts) const;
   Rgb gauss_legendre(std::uint32_t x, std::uint32_t y, double beta, int side, RayCounts& counts) const;
-  Measured split(const Regions& regions, double beta, RayCounts& counts) const;
+  Measured split(std::uint32_t x, std::uint32_t y, const Regions& regions, double beta, RayCounts& counts) const;
   Measured stratified(std::uint32_t x, std::uint32_t y, double beta, int side, RayCounts& counts) const;
   Measured sampled(std::uint32_t x, std::uint32_t y, const Surroundings& around, const std::optional<SurfacePoint>& centre,
                    RayCounts& counts) const;

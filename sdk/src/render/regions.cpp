@@ -23,6 +23,7 @@ struct Piece {
   double across;  // the scanline's place
   std::uint64_t key;
   bool varies;  // curved or textured: one place cannot stand for all
+  bool lambert;
 };
 
 class Scanner {
@@ -30,7 +31,10 @@ class Scanner {
   Scanner(const Prober& prober, const Stage& stage, std::uint32_t x, std::uint32_t y, bool along_x, RayCounts& counts)
       : prober_(prober), stage_(stage), x_(x), y_(y), along_x_(along_x), counts_(counts) {}
 
-  Vec2d place(double along, double across) const { return along_x_ ? Vec2d{x_ + along, y_ + across} : Vec2d{x_ + across, y_ + along}; }
+  Node node(double along, double across, double weight, std::uint32_t region) const {
+    const auto a = static_cast<float>(along), b = static_cast<float>(across), w = static_cast<float>(weight);
+    return along_x_ ? Node{a, b, w, region} : Node{b, a, w, region};
+  }
 
   void scan(double across, std::vector<Piece>& pieces) const {
     Look left = look(0, across);
@@ -47,8 +51,8 @@ class Scanner {
 
  private:
   Look look(double along, double across) const {
-    const Vec2d p = place(along, across);
-    return {along, prober_.look(p.x, p.y, counts_)};
+    const double u = along_x_ ? along : across, v = along_x_ ? across : along;
+    return {along, prober_.look(x_ + u, y_ + v, counts_)};
   }
 
   // Finds what lies between two places: bisection towards the edge, both halves if the middle is a third thing.
@@ -72,7 +76,12 @@ class Scanner {
   }
 
   void close(double begin, double end, double across, const Probe& probe, std::vector<Piece>& pieces) const {
-    if (end > begin) pieces.push_back({begin, end, across, probe.key, varies(probe)});
+    if (end > begin) pieces.push_back({begin, end, across, probe.key, varies(probe), is_lambert(probe)});
+  }
+
+  bool is_lambert(const Probe& probe) const {
+    const Paint* paint = probe.point ? stage_.thing(probe.point->thing).paint : nullptr;
+    return paint == nullptr || std::holds_alternative<Lambert>(paint->material.model);
   }
 
   bool varies(const Probe& probe) const {
@@ -132,8 +141,7 @@ void add_centroid(const Scanner& scanner, const std::vector<Piece>& pieces, doub
         *std::min_element(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) { return distance(a) < distance(b); });
     chosen = {(nearest.begin + nearest.end) / 2, nearest.across};
   }
-  const Vec2d place = scanner.place(chosen.x, chosen.y);
-  nodes.push_back({place.x, place.y, area, region});
+  nodes.push_back(scanner.node(chosen.x, chosen.y, area, region));
 }
 
 // Stratified along the scanlines laid end to end.
@@ -151,8 +159,16 @@ void add_stratified(const Scanner& scanner, const std::vector<Piece>& pieces, do
       ++piece;
     }
     const Piece& p = pieces[piece];
-    const Vec2d place = scanner.place(std::clamp(p.begin + target - passed, p.begin, p.end), p.across);
-    nodes.push_back({place.x, place.y, area / count, region});
+    nodes.push_back(scanner.node(std::clamp(p.begin + target - passed, p.begin, p.end), p.across, area / count, region));
+  }
+}
+
+// Gauss and Legendre's two places on each piece.
+void add_along_pieces(const Scanner& scanner, const std::vector<Piece>& pieces, int lines, std::uint32_t region, std::vector<Node>& nodes) {
+  const double away = std::sqrt(1.0 / 12);
+  for (const Piece& p : pieces) {
+    const double size = p.end - p.begin, middle = (p.begin + p.end) / 2;
+    for (const double shift : {-away, away}) nodes.push_back(scanner.node(middle + shift * size, p.across, size / lines / 2, region));
   }
 }
 
@@ -164,15 +180,16 @@ Regions regions_of(const Prober& prober, const Stage& stage, std::uint32_t x, st
   std::vector<Piece> pieces;
   std::map<std::uint64_t, double> areas;
   Regions regions;
+  int lines = first_lines;
   // The midpoint rule over scanlines: an edge that leaves through a side of the pixel costs O(1 / lines^2), so doubling divides by 4.
-  for (int lines = first_lines; lines <= most_lines; lines *= 2) {
+  for (;; lines *= 2) {
     pieces.clear();
     for (int i = 0; i < lines; ++i) scanner.scan((i + 0.5) / lines, pieces);
     std::map<std::uint64_t, double> finer = areas_of(pieces, lines);
     const double difference = largest_difference(areas, finer);
     areas = std::move(finer);
     regions.area_error = difference / 3;
-    if (lines > first_lines && difference < tolerance) break;
+    if ((lines > first_lines && difference < tolerance) || lines == most_lines) break;
   }
   Random random(seed);
   std::uint32_t number = 0;
@@ -180,10 +197,12 @@ Regions regions_of(const Prober& prober, const Stage& stage, std::uint32_t x, st
     std::vector<Piece> own;
     std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(own), [key = key](const Piece& p) { return p.key == key; });
     if (std::any_of(own.begin(), own.end(), [](const Piece& p) { return p.varies; })) {
-      add_stratified(scanner, own, area, number, random, regions.nodes);
+      add_stratified(scanner, own, area, number, random, regions.coarse);
     } else {
-      add_centroid(scanner, own, area, number, regions.nodes);
+      add_centroid(scanner, own, area, number, regions.coarse);
     }
+    add_along_pieces(scanner, own, lines, number, regions.nodes);
+    regions.only_lambert = regions.only_lambert && own.front().lambert;
     ++number;
   }
   return regions;

@@ -8,17 +8,19 @@
 
 namespace etendue::rendering {
 
-// A place in the picture that stands for a part of the pixel.
+// A place inside the pixel that stands for a part of it.
 struct Node {
-  double x = 0, y = 0;
-  double weight = 0;         // area in pixels
+  float x = 0, y = 0;        // from the pixel's upper left corner
+  float weight = 0;          // area in pixels
   std::uint32_t region = 0;  // nodes of one region share its number
 };
 
-// The weights sum to 1. `area_error`: estimate for the area of any region, in pixels.
+// The weights of either list sum to 1. `area_error`: estimate for the area of any region, in pixels.
 struct Regions {
-  std::vector<Node> nodes;
+  std::vector<Node> nodes;   // along all scanlines: quadratic variation is integrated exactly along them
+  std::vector<Node> coarse;  // one a region, at its centroid (exact where light varies linearly); several where the surface itself varies
   double area_error = 0;
+  bool only_lambert = true;  // what is seen is matt, black or a light
 };
 // `tolerance`: of the areas, in pixels. `seed`: of the places within regions whose shading varies.
 Regions regions_of(const Prober& prober, const Stage& stage, std::uint32_t x, std::uint32_t y, double tolerance, std::uint64_t seed,
