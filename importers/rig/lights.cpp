@@ -76,7 +76,7 @@ LightColour read_colour(Reader& reader, JsonValue value) {
 
 std::string read_name(Reader& reader, JsonValue value, const Shape& shape) {
   const std::string wanted = read_string(value, reader.diagnostics).value_or("");
-  const std::string name = unique_light_name(reader, wanted.empty() ? name_of(shape) : wanted);
+  std::string name = unique_light_name(reader, wanted.empty() ? name_of(shape) : wanted);
   if (!wanted.empty() && name != wanted) {
     warn(reader.diagnostics, value, "NAME_DUPLICATE", fmt::format("another light is named \"{}\"; this one is now \"{}\"", wanted, name));
   }

@@ -254,25 +254,23 @@ JsonValue JsonValue::element(std::size_t position) const {
 
 std::string JsonValue::pointer() const {
   if (!document_) return {};
-  std::vector<std::string> steps;
+  std::string text;  // from the last step to the first
   for (std::uint32_t i = index_; i != 0; i = document_->nodes_[i].parent) {
     const JsonDocument::Node& node = document_->nodes_[i];
+    std::string step = "/";
     if (document_->nodes_[node.parent].kind == JsonKind::array) {
-      steps.push_back(std::to_string(node.position));
-      continue;
-    }
-    std::string escaped;  // RFC 6901, section 3: ~ and / are written ~0 and ~1
-    for (const char c : document_->view(node.key)) {
-      if (c == '~' || c == '/') {
-        escaped += c == '~' ? "~0" : "~1";
-      } else {
-        escaped += c;
+      step += std::to_string(node.position);
+    } else {
+      for (const char c : document_->view(node.key)) {  // RFC 6901, section 3: ~ and / are written ~0 and ~1
+        if (c == '~' || c == '/') {
+          step += c == '~' ? "~0" : "~1";
+        } else {
+          step += c;
+        }
       }
     }
-    steps.push_back(std::move(escaped));
+    text.insert(0, step);
   }
-  std::string text;
-  for (auto step = steps.rbegin(); step != steps.rend(); ++step) text += '/' + *step;
   return text;
 }
 
