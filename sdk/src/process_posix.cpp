@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char** environ;
+extern char** environ;  // NOLINT(readability-redundant-declaration): not every C library declares it
 
 namespace etendue {
 namespace {
@@ -55,7 +55,7 @@ std::vector<std::string> merged_environment(const std::vector<std::pair<std::str
     for (const auto& [name, value] : added) replaced = replaced || text.substr(0, text.find('=')) == name;
     if (!replaced) merged.emplace_back(text);
   }
-  for (const auto& [name, value] : added) merged.push_back(name + '=' + value);
+  for (const auto& [name, value] : added) merged.emplace_back(name).append(1, '=').append(value);
   return merged;
 }
 
