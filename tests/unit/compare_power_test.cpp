@@ -60,6 +60,15 @@ TEST(ComparePower, HalfAPercentIsAGlobalScale) {
   EXPECT_NEAR(c.findings[0].size, 1.005, .001);
 }
 
+// Far below the noise of a pixel, and hidden in that of chi-squared.
+TEST(ComparePower, ATenthOfAPercentIsAGlobalScale) {
+  const Picture truth = beauty_only(draw(rig(), View{}));
+  const Comparison c = compare_with(changed(truth, [](float v) { return 1.001 * v; }), truth, .0005, 1, gaussian(.05));
+  EXPECT_LT(std::abs(c.pixel_excess_z), c.threshold_z);
+  ASSERT_EQ(c.findings.size(), 1U) << findings_text(c);
+  EXPECT_EQ(c.findings[0].code, "GLOBAL_SCALE");
+}
+
 TEST(ComparePower, GammaIsTold) {
   const Picture truth = draw(rig(), View{});
   for (double exponent : {1.02, 1 / 2.2}) {

@@ -14,9 +14,11 @@ namespace {
 
 using Values = std::vector<double>;
 constexpr std::size_t most_findings = 4;
-// A hypothesis is named when it explains this part of what exceeds the noise, and a simpler one is preferred where it explains nearly as
-// much.
-constexpr double least_explained = .3, as_good_as = .95;
+// A hypothesis is named when it explains this part of what exceeds the noise.
+constexpr double least_explained = .3;
+// A simpler one is preferred where it explains this part of what the other does: no model is exact, and many parameters would mend that.
+// For two parameters against one, and for a light's shape against any.
+constexpr double as_good_as_two = .99, as_good_as_shape = .95;
 // Alone in its layer, a light has only its brightness or the camera to blame when those explain this part; else its own shape or direction.
 constexpr double mostly = .8;
 // A camera or a pixel grid is off by a pixel at most; a larger shift that does not explain all is a light that has moved.
@@ -27,7 +29,8 @@ constexpr double shared_noise = 3;
 struct Candidate {
   Model model;
   Fit fit;
-  double explained = 0;  // part of the excess over the noise
+  double gain = 0;       // by how much it lowers chi-squared
+  double explained = 0;  // the same as a part of the excess over the noise
   double score = 0;      // Bayesian information criterion (Schwarz 1978) over -2: lower is better
 };
 
@@ -41,29 +44,53 @@ double relative_change(const Values& before, const Values& after, const Evidence
   return scale > 0 ? std::sqrt(change / scale) : 0;
 }
 
+// By how much chi-squared exceeds what noise alone would give, and the standard deviation of that, pixels being independent.
+struct Excess {
+  double value = 0, deviation = 0;
+};
+
+Excess excess_of(const Values& base, const Evidence& e, const Values& weights) {
+  Excess excess;
+  double squares = 0;
+  for (std::size_t p = 0; p < e.pixels(); ++p) {
+    double pixel = 0;
+    for (std::size_t i = 3 * p; i < 3 * p + 3; ++i)
+      pixel += weights[i] * ((e.reference[i] - base[i]) * (e.reference[i] - base[i]) - e.variance[i]);
+    excess.value += pixel;
+    squares += pixel * pixel;
+  }
+  excess.deviation = std::sqrt(squares);
+  return excess;
+}
+
 std::optional<Candidate> best_candidate(const Values& base, const Evidence& e, std::vector<Model> models, const Values& weights,
                                         double threshold_z, double max_difference) {
-  double noise = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) noise += weights[i] * e.variance[i];
+  const Excess excess = excess_of(base, e, weights);
+  // A change of a thousandth everywhere is certain long before the excess rises out of its own noise: what is certain of it counts.
+  const double to_explain = excess.value - 2 * excess.deviation;
+  const bool obvious = excess.value > threshold_z * excess.deviation;
   const double log_pixels = std::log(static_cast<double>(e.pixels()));
   const double least_change = std::max(max_difference / 10, 3e-5);
+  std::stable_sort(models.begin(), models.end(), [](const Model& a, const Model& b) { return a.parameters < b.parameters; });
   std::optional<Candidate> best;
   for (Model& model : models) {
-    Candidate candidate{std::move(model), {}, 0, 0};
+    // The many parameters of a light's shape are for what is obvious and has no simpler reason.
+    if (model.kind == Model::Kind::light_shape && (!obvious || (best && best->gain >= as_good_as_shape * excess.value))) continue;
+    Candidate candidate;
+    candidate.model = std::move(model);
     candidate.fit = fit(candidate.model, e, weights);
-    const double gain = candidate.fit.chi2_before - candidate.fit.chi2;
-    const double excess = candidate.fit.chi2_before - noise;
-    candidate.explained = excess > 0 ? std::min(1.0, gain / excess) : 1;
-    candidate.score = candidate.fit.chi2 / shared_noise + candidate.model.parameters * log_pixels;
-    if (gain / shared_noise < threshold_z * threshold_z + 2 * candidate.model.parameters) continue;
+    const int parameters = candidate.model.parameters;
+    const double gain = candidate.gain = candidate.fit.chi2_before - candidate.fit.chi2;
+    candidate.explained = gain >= to_explain ? 1 : gain / to_explain;
+    candidate.score = candidate.fit.chi2 / shared_noise + parameters * log_pixels;
+    if (gain / shared_noise < threshold_z * threshold_z + 2 * parameters) continue;
     if (candidate.explained < least_explained || relative_change(base, candidate.fit.predicted, e) < least_change) continue;
     const bool far =
         candidate.model.kind == Model::Kind::shift && std::hypot(candidate.fit.theta[0], candidate.fit.theta[1]) > likely_shift;
     if (far && candidate.explained < nearly_all) continue;
-    const bool simpler = best && candidate.model.parameters < best->model.parameters && candidate.explained >= as_good_as * best->explained;
-    const bool needless = best && candidate.model.parameters >= best->model.parameters &&
-                          best->explained >= as_good_as * candidate.explained && candidate.model.parameters > best->model.parameters;
-    if (!best || simpler || (!needless && candidate.score < best->score)) best = std::move(candidate);
+    const double as_good = candidate.model.kind == Model::Kind::light_shape ? as_good_as_shape : as_good_as_two;
+    const bool needless = best && parameters > best->model.parameters && best->gain >= as_good * gain;
+    if (!best || (!needless && candidate.score < best->score)) best = std::move(candidate);
   }
   return best;
 }
