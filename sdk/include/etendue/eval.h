@@ -65,7 +65,7 @@ struct Window {
 };
 double window_at(const Window& window, double distance_m);
 
-// Emission pattern over a planar emitter's own uv in [0,1]^2; multiplies the radiance.
+// Emission pattern over a planar emitter's own uv in [0,1]^2, or a mesh's texture coordinates; multiplies the radiance.
 using Pattern = std::function<Rgb(Vec2d uv)>;
 
 struct PunctualEmitter {
@@ -91,8 +91,8 @@ struct DiskEmitter {
 struct PolygonEmitter {
   std::vector<Vec3d> vertices;  // counter-clockwise seen from the emitting side; simple, planar
   Vec3d normal;
-  std::array<Vec3d, 3> uv_frame;                        // origin, u and v vectors: point = origin + u du + v dv
-  std::vector<std::array<std::uint32_t, 3>> triangles;  // indices of vertices, covering it; for sampling
+  std::array<Vec3d, 3> uv_frame;                          // origin, u and v vectors: point = origin + u du + v dv
+  std::vector<std::array<std::uint32_t, 3>> triangles{};  // indices of vertices, covering it; for sampling
 };
 struct TubeEmitter {
   Vec3d a, b;  // centres of the caps
@@ -105,7 +105,8 @@ struct LineEmitter {
 };
 struct MeshEmitter {
   std::vector<std::array<Vec3d, 3>> triangles;  // emit on the counter-clockwise side
-  std::vector<double> running_area;             // of the triangles up to and with each; for sampling
+  std::vector<double> running_area{};           // of the triangles up to and with each; for sampling
+  std::vector<std::array<Vec2d, 3>> uvs{};      // of the triangles' corners, for a pattern; or empty
 };
 // Latitude-longitude map; bilinear, texel-centred, periodic in u, rows clamped at the poles. Built once.
 class EnvironmentMap;
@@ -129,6 +130,7 @@ struct EmitterParts {
   std::vector<std::array<Vec3d, 3>> triangles;  // mesh lights, in the light's own frame (scale not applied)
   std::shared_ptr<const EnvironmentMap> environment;
   Pattern pattern;
+  std::vector<std::array<Vec2d, 3>> uvs;  // of mesh lights with a pattern, as many as triangles
 };
 // Patterns lie upright as seen from the emitting side: uv (0, 0) is the top left there, where +Y is up (and so +X is left).
 // Errors as resolve(). EVALUATION_UNSUPPORTED: photometric lights, tubes without caps that emit on both sides.

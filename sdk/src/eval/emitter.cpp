@@ -30,13 +30,18 @@ PolygonEmitter polygon_of(std::vector<Vec2d> points, const Transform& frame) {
   return polygon;
 }
 
-MeshEmitter mesh_of(const MeshShape& mesh, const std::vector<std::array<Vec3d, 3>>& triangles, const Transform& frame) {
+MeshEmitter mesh_of(const MeshShape& mesh, const EmitterParts& parts, const Transform& frame) {
+  const auto& triangles = parts.triangles;
   MeshEmitter emitter;
+  if (parts.uvs.size() == triangles.size()) emitter.uvs = parts.uvs;
   emitter.triangles.reserve(triangles.size());
   emitter.running_area.reserve(triangles.size());
   // A mirroring scale swaps the winding; what was the front stays the front.
   const bool mirrored = mesh.scale.x * mesh.scale.y * mesh.scale.z < 0;
   double area = 0;
+  if (mirrored) {
+    for (auto& uv : emitter.uvs) std::swap(uv[1], uv[2]);
+  }
   for (std::array<Vec3d, 3> t : triangles) {
     for (Vec3d& p : t) p = frame.point(p * mesh.scale);
     if (mirrored) std::swap(t[1], t[2]);
@@ -79,7 +84,7 @@ struct ShapeOf {
   EmitterShape operator()(const LineShape& s) const {
     return LineEmitter{frame.point({-0.5 * s.length, 0, 0}), frame.point({0.5 * s.length, 0, 0}), rgb};
   }
-  EmitterShape operator()(const MeshShape& s) const { return mesh_of(s, parts.triangles, frame); }
+  EmitterShape operator()(const MeshShape& s) const { return mesh_of(s, parts, frame); }
   EmitterShape operator()(const EnvironmentShape&) const { return EnvironmentEmitter{parts.environment, inverse_rotation(frame)}; }
   // A disk in the sky is resolved to luminance, a true direction to illuminance on a plane facing it.
   EmitterShape operator()(const DistantShape& s) const {
@@ -100,7 +105,7 @@ Result<Emitter> emitter_of(const Light& light, const EmitterParts& parts) {
   const Transform frame = light.transform.rigid();
   double mesh_area = 0;
   if (const auto* mesh = std::get_if<MeshShape>(&light.shape)) {
-    const MeshEmitter scaled = mesh_of(*mesh, parts.triangles, Transform{});
+    const MeshEmitter scaled = mesh_of(*mesh, parts, Transform{});
     if (!scaled.running_area.empty()) mesh_area = scaled.running_area.back();
   }
   const Result<Resolved> resolved = resolve(light, mesh_area);

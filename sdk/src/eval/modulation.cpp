@@ -43,9 +43,22 @@ bool is_modulated(const Emitter& emitter) {
   return static_cast<bool>(emitter.pattern) || (emitter.window.falloff != Falloff::inverse_square && emitter.window.range_m > 0);
 }
 
-// uv of a disk: (u, v) = (1 + x / R, 1 + y / R) / 2 along its x axis and the one that makes (x, y, -normal) right-handed, as for a
-// rectangle that encloses it.
-Rgb pattern_at(const Emitter& emitter, const Vec3d& point) {
+namespace {
+
+// Interpolated by the barycentric coordinates, which are ratios of areas seen along the normal.
+Vec2d uv_in_triangle(const std::array<Vec3d, 3>& t, const std::array<Vec2d, 3>& uv, const Vec3d& point) {
+  const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
+  const double twice = dot(normal, normal);
+  if (!(twice > 0)) return uv[0];
+  const double b1 = dot(cross(point - t[0], t[2] - t[0]), normal) / twice, b2 = dot(cross(t[1] - t[0], point - t[0]), normal) / twice;
+  const double b0 = 1 - b1 - b2;
+  return {b0 * uv[0].x + b1 * uv[1].x + b2 * uv[2].x, b0 * uv[0].y + b1 * uv[1].y + b2 * uv[2].y};
+}
+
+}  // namespace
+
+// uv of a disk: (1 + x / R, 1 + y / R) / 2, y along cross(x, normal), as of the square around it.
+Rgb pattern_at(const Emitter& emitter, std::size_t index, const Vec3d& point) {
   if (!emitter.pattern) return {1, 1, 1};
   if (const auto* polygon = std::get_if<PolygonEmitter>(&emitter.shape)) {
     const auto& [origin, u, v] = polygon->uv_frame;
@@ -56,12 +69,15 @@ Rgb pattern_at(const Emitter& emitter, const Vec3d& point) {
     const Vec3d p = (point - disk->centre) / disk->radius, y = cross(disk->x, disk->normal);
     return emitter.pattern({0.5 * (1 + dot(p, disk->x)), 0.5 * (1 + dot(p, y))});
   }
+  if (const auto* mesh = std::get_if<MeshEmitter>(&emitter.shape); mesh != nullptr && index < mesh->uvs.size()) {
+    return emitter.pattern(uv_in_triangle(mesh->triangles[index], mesh->uvs[index], point));
+  }
   return {1, 1, 1};
 }
 
 Rgb modulation_along(const Emitter& emitter, std::size_t index, const Vec3d& position, const Vec3d& direction) {
   const double distance = std::visit(Distance{emitter, index, position, direction}, emitter.shape);
-  return pattern_at(emitter, position + direction * distance) * window_at(emitter.window, distance);
+  return pattern_at(emitter, index, position + direction * distance) * window_at(emitter.window, distance);
 }
 
 }  // namespace etendue::eval

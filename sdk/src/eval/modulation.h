@@ -12,7 +12,7 @@ bool is_modulated(const Emitter& emitter);
 // continued over their whole plane, so that this is a function of direction without steps at the light's edge.
 Rgb modulation_along(const Emitter& emitter, std::size_t index, const Vec3d& position, const Vec3d& direction);
 
-// Pattern of a planar light at a point of it, 1 where there is none.
-Rgb pattern_at(const Emitter& emitter, const Vec3d& point);
+// Pattern at a point of a planar light or of triangle `index` of a mesh, 1 where there is none.
+Rgb pattern_at(const Emitter& emitter, std::size_t index, const Vec3d& point);
 
 }  // namespace etendue::eval
