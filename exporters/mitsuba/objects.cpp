@@ -31,6 +31,30 @@ Mesh with_reversed_winding(Mesh mesh) {
   return mesh;
 }
 
+// glTF turns a normal map's second axis round where texture coordinates are mirrored (their area is positive; with v downwards it usually
+// is negative); Mitsuba does not.
+bool mirrors_texture(const Mesh& mesh) {
+  if (mesh.uvs.empty()) return false;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec2f &a = mesh.uvs[mesh.indices[i]], &b = mesh.uvs[mesh.indices[i + 1]], &c = mesh.uvs[mesh.indices[i + 2]];
+    if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0) return true;
+  }
+  return false;
+}
+
+void report_mirrored_normals(Writer& writer, const Object& object, const Mesh& mesh) {
+  if (object.material == no_index || !writer.scene.materials[object.material].normal_map || !mirrors_texture(mesh)) return;
+  writer.losses.add("object '" + object.name + "': normal map on mirrored texture coordinates",
+                    "its slopes along v are the other way round there, in Mitsuba as in our own evaluation");
+}
+
+// A material without a picture is a hole everywhere or nowhere.
+bool is_all_hole(const Scene& scene, const Object& object) {
+  if (object.material == no_index) return false;
+  const Material& material = scene.materials[object.material];
+  return material.alpha_cutoff && !has_holes(material) && material.base_alpha < *material.alpha_cutoff;
+}
+
 }  // namespace
 
 Result<pugi::xml_node> add_mesh_shape(Writer& writer, const std::string& id, const Mesh& mesh, const Transform& to_world,
@@ -49,6 +73,7 @@ Status write_objects(Writer& writer) {
   const Scene& scene = writer.scene;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
+    if (is_all_hole(scene, object)) continue;
     const std::string id = "object_" + std::to_string(i) + "_" + id_safe(object.name);
     const std::string bsdf = material_id(scene, object.material);
     const bool textured = object.material != no_index && has_textures(scene.materials[object.material]);
@@ -63,6 +88,7 @@ Status write_objects(Writer& writer) {
       continue;
     }
     const Mesh mesh = tessellated(object.geometry, scene.meshes);
+    report_mirrored_normals(writer, object, mesh);
     Result<pugi::xml_node> shape = add_mesh_shape(writer, id, mesh, object.transform, mesh.normals.empty());
     if (!shape) return shape.error();
     add_reference(*shape, bsdf);

@@ -135,6 +135,18 @@ TEST(Materials, FrontsOfTransformedObjects) {
   }
 }
 
+// Coordinates of glTF's usual kind (v downwards) are not mirrored; turned round, the loss report says so.
+TEST(Materials, MirroredNormalMapsAreReported) {
+  Material material;
+  material.model = Lambert{{1, 1, 1}};
+  material.normal_map = NormalMap{plain(), 1};
+  Scene scene = square(material);
+  add_normal_map(scene, {0.6f, 0.4f, 0.9f});
+  EXPECT_TRUE(exported(scene, "upright").losses.losses.empty());
+  for (Vec2f& uv : scene.meshes[0].uvs) uv.x = 1 - uv.x;
+  EXPECT_EQ(exported(scene, "mirrored").losses.losses.size(), 1u);
+}
+
 // A hole shows what lies behind it, lit through another hole.
 TEST(Materials, HolesLetLightThrough) {
   ETENDUE_NEEDS_MITSUBA();
