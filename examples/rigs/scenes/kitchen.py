@@ -112,7 +112,7 @@ def room(model):
         block(LEFT, LEFT + 0.03, CEILING - 0.06, CEILING, 0, FRONT, 0.012),
     )
     model.add(
-        "window", "frame white", window_frame(x1 - x0, y1 - y0, 2, 2).at(0, y0, -0.14), block(x0 - 0.04, x1 + 0.04, y0 - 0.03, y0, -0.16, 0.10, 0.006)
+        "window", "frame white", window_frame(x1 - x0, y1 - y0, 2, 2).at(0, y0, -0.14), block(x0 - 0.04, x1 + 0.04, y0 - 0.03, y0 + 0.004, -0.16, 0.10, 0.003)
     )
 
 
@@ -151,8 +151,8 @@ def base_units(model):
     front(model, -0.45, 0.0, PLINTH, CARCASS, "right")
     front(model, 0.0, 0.45, PLINTH, CARCASS, "left")
     front(model, 0.45, 1.05, PLINTH, CARCASS, "top")
-    front(model, 1.05, 1.5, PLINTH, CARCASS, "left")
-    x0, x1, z0, z1 = -0.30, 0.30, 0.13, 0.50  # the sink's cut-out
+    front(model, 1.05, 1.482, PLINTH, CARCASS, "left")
+    x0, x1, z0, z1 = -0.306, 0.306, 0.124, 0.506  # the sink's cut-out, in the middle of its walls
     model.add(
         "worktop",
         "worktop stone",
@@ -295,7 +295,7 @@ def on_the_worktop(model):
     board = extrude(rounded(0.26, 0.40, 0.03), 0.018, 0.004)
     model.add("board", "board", board.turned("x", -14).at(-1.72, TOP + 0.20, 0.075))
     pot = revolve([(0, 0), (0.040, 0), (0.053, 0.075), (0.058, 0.075), (0.059, 0.098), (0.053, 0.098), (0.050, 0.082), (0, 0.080)], 32)
-    model.add("herbs", "terracotta", pot.at(0.43, TOP, 0.16), pot.at(-0.44, 1.08, -0.02))
+    model.add("herbs", "terracotta", pot.at(0.43, TOP, 0.16), pot.at(-0.44, 1.084, -0.02))
     model.add("herbs", "leaf", leafy(8).at(0.43, TOP + 0.08, 0.16), leafy(8, 0.14, 9).at(-0.44, 1.16, -0.02))
     kettle(model)
 
@@ -323,7 +323,7 @@ def kettle(model):
 
 def fittings(model):
     """What holds the lamps: trims of the downlights, flex and canopy of the pendant, end caps of the tube."""
-    model.add("trim", "frame white", revolve([(0.060, -0.001), (0.062, -0.009), (0.078, -0.004), (0.080, 0.0)], 40, 60))
+    model.add("trim", "frame white", revolve([(0.077, -0.001), (0.079, -0.009), (0.096, -0.004), (0.098, 0.0)], 40, 60))
     for x, z in DOWNLIGHTS:
         model.place("trim", x, CEILING, z)
     x, y, z = PENDANT
@@ -343,7 +343,7 @@ def rig():
     lights = [
         {
             "name": f"downlight {k + 1}",
-            "shape": {"type": "disk", "radius": "60 mm"},
+            "shape": {"type": "disk", "radius": "75 mm"},
             "emission": {"flux": "730 lm"},
             "colour": warm,
             "translation": [x, CEILING - 0.004, z],

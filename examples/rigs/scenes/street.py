@@ -1,9 +1,9 @@
-"""A town house at dusk: a sodium lantern on its post, a second street light down the road, lit windows, a lamp at the door."""
+"""A town house at dusk: an opal sodium lantern on its post, a second street light down the road, lit windows, a lamp at the door."""
 
 import math
 
 from modelling.masonry import BRICK_SIZE, around, bonded, brick_colour, brick_normal
-from modelling.mesh import merged
+from modelling.mesh import merged, plus
 from modelling.model import Model
 from modelling.pixels import clouds, mix, png
 from modelling.props import window_frame
@@ -19,6 +19,7 @@ SECOND_WINDOWS = [(x - 0.50, x + 0.50, 6.75, 8.00) for x in (-4.9, -2.85, -0.75,
 LIT = [FIRST_WINDOWS[2], GROUND_WINDOWS[1], SECOND_WINDOWS[4]]
 KERB = 2.45
 LAMP = (-2.2, 3.86, 2.10)
+LANTERN = (0.15, 0.235, 0.50)  # half widths of its floor and its top, height
 DOOR_LAMP = (0.60, 2.42, 0.24)
 SECOND_LAMP, SECOND_TARGET = (-8.2, 6.0, 4.2), (-1.0, 1.6, 0.3)
 
@@ -98,10 +99,10 @@ def window(model, opening, index):
         model.add("panes", "glass", block(x0, x1, y0, y1, -0.155, -0.150, 0))
         if index % 3 == 1:
             model.add("blinds", "paint", block(x0, x1, y1 - 0.30 * (y1 - y0), y1, -0.150, -0.146, 0))
-    model.add("sills", "stone", block(x0 - 0.14, x1 + 0.14, y0 - 0.10, y0, -0.12, face + 0.085, 0.012))
-    for a, b in ((x0 - 0.13, x0), (x1, x1 + 0.13)):
+    model.add("sills", "stone", block(x0 - 0.14, x1 + 0.14, y0 - 0.10, y0 + 0.005, -0.12, face + 0.085, 0.012))
+    for a, b in ((x0 - 0.13, x0 + 0.006), (x1 - 0.006, x1 + 0.13)):
         model.add("surrounds", "stone", block(a, b, y0, y1, -0.02, face + 0.035, 0.008))
-    model.add("surrounds", "stone", block(x0 - 0.13, x1 + 0.13, y1, y1 + 0.17, -0.02, face + 0.040, 0.008))
+    model.add("surrounds", "stone", block(x0 - 0.13, x1 + 0.13, y1 - 0.006, y1 + 0.17, -0.02, face + 0.040, 0.008))
     if not y0 > FIRST:
         keystone = extrude([(-0.075, 0), (0.075, 0), (0.105, 0.24), (-0.105, 0.24)], 0.10, 0.01)
         model.add("surrounds", "stone", keystone.at(middle, y1 - 0.012, face + 0.03))
@@ -171,7 +172,7 @@ def door(model):
             ),
         )
     model.add("panes", "glass", block(x0, x1, leaf, y1, -0.165, -0.16, 0))
-    for x in (x0 - 0.16, x1 + 0.16):  # pilasters with base and capital, an entablature on them
+    for x in (x0 - 0.176, x1 + 0.176):  # pilasters with base and capital, an entablature on them
         model.add(
             "door case",
             "stone",
@@ -183,7 +184,7 @@ def door(model):
     for low, high, out, reach in ((0.06, 0.22, 0.14, 0.18), (0.22, 0.27, 0.19, 0.26), (0.27, 0.34, 0.23, 0.34)):
         model.add("door case", "stone", block(x0 - 0.15 - out, x1 + 0.15 + out, y1 + low, y1 + high, 0, reach, 0.012))
     for k in range(2):
-        model.add("steps", "kerb", block(x0 - 0.34, x1 + 0.34, 0.17 * k, 0.17 * (k + 1), -0.1, 0.90 - 0.34 * k, 0.014))
+        model.add("steps", "kerb", block(x0 - 0.34, x1 + 0.34, 0.173 * k, 0.173 * (k + 1), -0.1, 0.90 - 0.34 * k, 0.014))
 
 
 def cornices(model):
@@ -196,7 +197,7 @@ def cornices(model):
         (TOP + 0.20, TOP + 0.32, 0.50),
         (TOP, TOP + 0.12, 0.14),
     ):
-        model.add("cornices", "stone", block(LEFT, RIGHT + 0.6 * reach, low, high, -0.3, reach, 0.018))
+        model.add("cornices", "stone", block(LEFT - 0.02, RIGHT + 0.6 * reach, low, high, -0.3, reach, 0.018))
     count = 36
     for k in range(count):  # modillions under the crown
         x = LEFT + (RIGHT - LEFT) * (k + 0.5) / count
@@ -261,7 +262,7 @@ def railing(model):
 def lantern(model):
     """A cast-iron post with a ladder bar and a four-sided lantern: its frame stands between the lamp and the facade."""
     x, y, z = LAMP
-    low = y - 0.30  # the lantern's floor
+    low = y - 0.5 * LANTERN[2]  # the lantern's floor
     post = [
         (0, 0),
         (0.20, 0),
@@ -293,7 +294,7 @@ def lantern(model):
         ball(0.028, 14, 8).at(x - 0.35, 2.90, z),
         ball(0.028, 14, 8).at(x + 0.35, 2.90, z),
     )
-    bottom, top, tall = 0.15, 0.235, 0.50
+    bottom, top, tall = LANTERN
 
     def corner(i, height, grow=1.0):
         r = (bottom + (top - bottom) * height / tall) * grow
@@ -324,7 +325,6 @@ def lantern(model):
         (0, 0.44),
     ]
     model.add("lantern", "iron", revolve(roof, sides=4).turned("y", 45).at(x, low + tall + 0.015, z))
-    model.add("lantern", "iron", cylinder(0.02, 0.10, 14).at(x, low - 0.02, z))
 
 
 def door_lantern(model):
@@ -338,16 +338,29 @@ def door_lantern(model):
     )
 
 
+def panes():
+    """The lantern's four opal panes: trapezia just inside its bars, each emitting outwards."""
+    bottom, top, tall = LANTERN
+    lean = math.atan2(top - bottom, tall)
+    half, edge = 0.5 * tall / math.cos(lean), 0.018
+    points = [[-bottom + edge, -half + edge], [bottom - edge, -half + edge], [top - edge, half - edge], [-top + edge, half - edge]]
+    for name, across, along in (("front", 0, 1), ("right", 1, 0), ("back", 0, -1), ("left", -1, 0)):
+        normal = (across * math.cos(lean), -math.sin(lean), along * math.cos(lean))
+        middle = (LAMP[0] + across * (bottom + top) / 2, LAMP[1], LAMP[2] + along * (bottom + top) / 2)
+        yield {
+            "name": f"street lantern, {name} pane",
+            "shape": {"type": "polygon", "points": [[round(x, 4) for x in p] for p in points]},
+            "emission": {"flux": "900 lm"},
+            "colour": {"temperature": "2000 K"},
+            "translation": [round(x, 4) for x in middle],
+            "rotation": aimed(middle, plus(middle, normal)),
+        }
+
+
 def rig():
     room = {"temperature": "2700 K"}
     lights = [
-        {
-            "name": "street lantern",
-            "shape": {"type": "sphere", "radius": "35 mm"},
-            "emission": {"flux": "6000 lm"},
-            "colour": {"temperature": "2000 K"},
-            "translation": list(LAMP),
-        },
+        *panes(),
         {
             "name": "street light down the road",
             "shape": {"type": "spot", "inner": "30 deg", "outer": "65 deg"},
@@ -376,5 +389,5 @@ def rig():
             }
         )
     lights.append({"name": "sky", "shape": {"type": "environment"}, "emission": {"luminance": "3.0 nit"}, "colour": {"daylight": "20000 K"}})
-    camera = {"position": [-3.7, 1.6, 9.6], "target": [-0.15, 3.7, 0.0], "vfov": "49 deg", "exposure": {"ev100": 3.4}}
+    camera = {"position": [-3.7, 1.6, 9.6], "target": [-0.15, 3.7, 0.0], "vfov": "49 deg", "exposure": {"ev100": 3.2}}
     return rig_file(lights, camera, [{"gltf": "street.glb"}])
