@@ -112,7 +112,10 @@ def room(model):
         block(LEFT, LEFT + 0.03, CEILING - 0.06, CEILING, 0, FRONT, 0.012),
     )
     model.add(
-        "window", "frame white", window_frame(x1 - x0, y1 - y0, 2, 2).at(0, y0, -0.14), block(x0 - 0.04, x1 + 0.04, y0 - 0.03, y0 + 0.004, -0.16, 0.10, 0.003)
+        "window",
+        "frame white",
+        window_frame(x1 - x0, y1 - y0, 2, 2).at(0, y0, -0.14),
+        block(x0 - 0.04, x1 + 0.04, y0 - 0.03, y0 + 0.004, -0.16, 0.10, 0.003),
     )
 
 
