@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <utility>
 
 namespace etendue::eval::protocol {
 
@@ -27,6 +28,15 @@ class Random {
   std::mt19937_64 engine_;
   std::uniform_real_distribution<double> unit_{0, 1};
 };
+
+// A light of one luminance in all channels, and its illuminance.
+inline Emitter white(EmitterShape shape, double luminance = 1) {
+  Emitter e;
+  e.shape = std::move(shape);
+  e.radiance = {luminance, luminance, luminance};
+  return e;
+}
+inline double lux_at(const Emitter& e, const Vec3d& p, const Vec3d& n) { return illuminance(e, p, n).x; }
 
 struct Placement {
   Emitter emitter;

@@ -164,8 +164,8 @@ TEST(EmitterOf, RefusesWhatItCannotDo) {
 }
 
 TEST(EmitterOf, EnvironmentTurnsWithItsLight) {
-  std::vector<Vec3f> pixels(16 * 8, Vec3f{0, 0, 0});
-  for (std::size_t i = 0; i < 16; ++i) pixels[i] = pixels[16 + i] = {1, 1, 1};  // bright around +Y
+  std::vector<Vec3f> pixels(128, Vec3f{0, 0, 0});
+  for (std::size_t i = 0; i < 16; ++i) pixels[i] = pixels[16 + i] = {1, 1, 1};  // 16 x 8, bright around +Y
   EmitterParts parts;
   parts.environment = make_environment(16, 8, pixels);
   Light light = light_with(EnvironmentShape{0u}, Emission::Given::as_file, 0);

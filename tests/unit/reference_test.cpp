@@ -128,8 +128,9 @@ TEST(Specular, AgreesWithTheIntegralOverTheArea) {
     const Vec3d view = local(c.point.view);
     double sum = 0;
     for (int j = 0; j < cells * cells; ++j) {
+      const int column = j % cells, row = j / cells;
       for (int k = 0; k < 25; ++k) {
-        const Vec3d to = v[0] + ex * (j % cells + x[k % 5]) + ey * (j / cells + x[k / 5]) - c.point.position;
+        const Vec3d to = v[0] + ex * (column + x[k % 5]) + ey * (row + x[k / 5]) - c.point.position;
         const double d2 = dot(to, to);
         const Vec3d l = to / std::sqrt(d2);
         sum += w[k % 5] * w[k / 5] * brdf_cos(c.point.brdf, view, local(l)).x * -dot(light_normal, l) / d2;

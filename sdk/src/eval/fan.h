@@ -203,7 +203,7 @@ class FanIntegrator {
       const double wrong = std::abs(halves[0].value[c] + halves[1].value[c] - parent.value[c]);
       if (wrong <= parent.error[c]) continue;
       const double factor = std::min(wrong / std::max(parent.error[c], 1e-300), 100.0);
-      for (int i = 0; i < 2; ++i) halves[i].error[c] = std::min(halves[i].error[c] * factor, std::max(halves[i].error[c], wrong));
+      for (FanCell& half : halves) half.error[c] = std::min(half.error[c] * factor, std::max(half.error[c], wrong));
     }
   }
 
