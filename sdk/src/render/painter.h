@@ -5,6 +5,8 @@
 #include "rows.h"
 #include "survey.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -16,12 +18,15 @@ struct PainterOptions {
   std::uint64_t seed = 1;
 };
 
+inline double largest(const Rgb& c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
+
 class LightPainter {
  public:
   LightPainter(const Stage& stage, const PinholeCamera& camera, const Survey& survey, const StageLight& light,
                const PainterOptions& options);
 
-  static constexpr std::size_t passes = 3;
+  static constexpr int centre_passes = 5;
+  static constexpr std::size_t passes = 2 + centre_passes;
   // Fills width x height values and variances. False: cancelled.
   bool run(RowRunner& rows);
   const std::vector<Rgb>& value() const { return value_; }
@@ -43,7 +48,9 @@ class LightPainter {
 
   double typical_luminance() const;
   void pilot_row(std::uint32_t row, RayCounts& counts);
-  void centre_row(std::uint32_t row, RayCounts& counts);
+  bool find_centres(RowRunner& rows);
+  void centre_row(std::uint32_t row, int pass, RayCounts& counts);
+  std::optional<Rgb> interpolated(std::uint32_t x, std::uint32_t y) const;
   void paint_row(std::uint32_t row, RayCounts& counts);
   Surroundings surroundings(std::uint32_t x, std::uint32_t y) const;
   bool centre_is_needed(std::uint32_t x, std::uint32_t y) const;

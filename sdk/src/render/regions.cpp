@@ -11,7 +11,7 @@ namespace {
 constexpr int places_on_a_line = 9;
 constexpr double narrowest = 1e-5;  // pixels: how well an edge is located on a scanline
 constexpr int first_lines = 4, most_lines = 32;
-constexpr std::uint32_t nodes_where_shading_varies = 8;
+constexpr std::uint32_t nodes_where_shading_varies = 4;
 
 struct Look {
   double s;  // along the scanline, 0 to 1
