@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "comparison_text.h"
 #include "verbs.h"
 
 namespace etendue::cli {
@@ -143,7 +144,7 @@ int run_convert(const Common& common, const Options& options) {
       losses[job.out.string()] = to_json(job.losses);
       session.print(fmt::format("{}: {} file{}, {} loss{}", job.out.string(), job.files.size(), job.files.size() == 1 ? "" : "s",
                                 job.losses.losses.size(), job.losses.losses.size() == 1 ? "" : "es"));
-      for (const Loss& loss : job.losses.losses) session.print(fmt::format("  lost: {}: {}", loss.what, loss.effect));
+      for (const std::string& line : grouped(job.losses.losses)) session.print(fmt::format("  lost: {}", line));
     }
     session.result.push_back(std::move(item));
   }

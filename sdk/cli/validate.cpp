@@ -230,7 +230,7 @@ int run_validate(const Common& common, const Options& options) {
     session.print(fmt::format("  light {:<20} {:<10} mean {:+.3f} %  chi2 {:.3f}", light.name, name_of(light.comparison.verdict),
                               100 * light.comparison.mean_rel, light.comparison.chi2_per_pixel));
   }
-  for (const Loss& loss : validation->losses.losses) session.print(fmt::format("  not in Mitsuba's scene: {}: {}", loss.what, loss.effect));
+  for (const std::string& line : grouped(validation->losses.losses)) session.print(fmt::format("  not in Mitsuba's scene: {}", line));
   session.print(fmt::format("report: {}", fs::absolute(fs::path(options.out) / "report.html").lexically_normal().string()));
   return session.finish(exit_status_of(validation->report.comparison.verdict));
 }
