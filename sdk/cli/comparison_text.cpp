@@ -7,12 +7,6 @@
 #include <cmath>
 
 namespace etendue::cli {
-namespace {
-
-double z_of(const RegionDifference& region) { return region.standard_error > 0 ? region.difference / region.standard_error : 0; }
-
-}  // namespace
-
 Json to_json(const Comparison& comparison) {
   Json json = {{"verdict", name_of(comparison.verdict)},
                {"mean_rel", comparison.mean_rel},
