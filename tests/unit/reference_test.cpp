@@ -266,4 +266,61 @@ TEST(Horizon, FromBelowNothing) {
   EXPECT_EQ(reference(sphere, {{}, -n, -n, -n, Principled{}}, {}).value, Rgb{});
 }
 
+// Sizes and distances over twelve decades, a tenth of the sizes 0, points on planes and axes: the answer is finite, not below 0 by more
+// than its error, and not above the luminance (by more than what a lobe's own albedo exceeds 1: Disney's diffuse reaches 1.41 at grazing
+// views).
+TEST(Extremes, AreDefined) {
+  Random random(77);
+  const auto size = [&] { return random.uniform(0, 1) < 0.1 ? 0.0 : random.log_uniform(1e-6, 1e6); };
+  const auto somewhere = [&] {
+    Vec3d p = random.direction() * random.log_uniform(1e-6, 1e6);
+    for (int i = 0; i < 3; ++i) {
+      if (random.uniform(0, 1) < 0.2) p[i] = 0;
+    }
+    return p;
+  };
+  const auto unit = [&] {
+    Vec3d d = random.direction();
+    const double kind = random.uniform(0, 1);
+    if (kind < 0.2) d.z = 0;
+    if (kind > 0.8) d = {1, 0, 1e-7};
+    return kind > 0.6 && kind < 0.8 ? Vec3d{0, 0, 1} : normalised(d);
+  };
+  for (int i = 0; i < 6000; ++i) {
+    Emitter e;
+    e.radiance = {1, 1, 1};
+    e.two_sided = i % 3 == 0;
+    const Vec3d normal = unit();
+    const Basis b = basis_around(normal);
+    switch (i % 5) {
+      case 0:
+        e.shape = SphereEmitter{somewhere(), size()};
+        break;
+      case 1:
+        e.shape = DiskEmitter{somewhere(), normal, b.tangent, size()};
+        break;
+      case 2:
+        e.shape = rectangle(somewhere(), b.tangent, b.bitangent, size(), size());
+        break;
+      case 3:
+        e.shape = TubeEmitter{somewhere(), somewhere(), size(), Caps::round};
+        break;
+      default:
+        e.shape = TubeEmitter{somewhere(), somewhere(), size(), Caps::flat};
+        break;
+    }
+    const Vec3d n = unit(), surface = i % 2 == 0 ? n : normalised(n + random.direction() * 0.3);
+    Vec3d view = unit();
+    if (dot(view, n) < 0) view = -view;
+    const double alpha = random.log_uniform(1e-5, 1);
+    const Brdf brdf = i % 4 == 0 ? Brdf{DisneyDiffuse{{1, 1, 1}, alpha}} : Brdf{GgxLobe{alpha, {1, 1, 1}, 1, Masking::correlated}};
+    const Estimate s = reference(e, {{}, n, surface, view, brdf}, {1e-2, 1e-9});
+    ASSERT_TRUE(std::isfinite(s.value.x) && std::isfinite(s.error.x)) << i;
+    EXPECT_GE(s.value.x, -s.error.x - 1e-12) << i;
+    EXPECT_LE(s.value.x, 1.5 + s.error.x) << i;
+    const double lux = illuminance(e, {}, n).x;
+    EXPECT_TRUE(lux >= 0 && lux <= pi * (1 + 1e-9)) << i;
+  }
+}
+
 }  // namespace

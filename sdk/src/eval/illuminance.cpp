@@ -61,14 +61,15 @@ struct ClosedForm {
       vertices = many;
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = frame.point(e.vertices[i]);
-    return emitter.radiance * std::abs(projected_solid_angle(vertices, horizons));
+    // Counter-clockwise about the normal is clockwise as seen from its side. Where rounding cannot tell the side, nothing is seen.
+    return emitter.radiance * std::max((height > 0 ? -1 : 1) * projected_solid_angle(vertices, horizons), 0.0);
   }
   Rgb operator()(const MeshEmitter& e) const {
     double sum = 0;
     for (const auto& triangle : e.triangles) {
       const std::array<Vec3d, 3> t{frame.point(triangle[0]), frame.point(triangle[1]), frame.point(triangle[2])};
       const bool front = dot(cross(t[1] - t[0], t[2] - t[0]), t[0]) < 0;
-      if (front || emitter.two_sided) sum += std::abs(projected_solid_angle(t, horizons));
+      if (front || emitter.two_sided) sum += std::max((front ? -1 : 1) * projected_solid_angle(t, horizons), 0.0);
     }
     return emitter.radiance * sum;
   }

@@ -30,6 +30,12 @@ bool encloses(const Contour& contour, const Vec3d& c) {
   return angle > pi;
 }
 
+// A polygon that runs clockwise although the point seemed to be on its emitting side: it is edge-on to within rounding, and not seen.
+bool is_inverted(const Contour& contour) {
+  const bool polygon = std::all_of(contour.begin(), contour.end(), [](const Arc& arc) { return arc.great_circle(); });
+  return polygon && direction_integral(contour).z < 0;
+}
+
 void mark_adjacent(Fan& fan) {
   int found = 0;
   for (std::size_t i = 0; i < fan.contour.size() && found < 2; ++i) {
@@ -143,7 +149,7 @@ Estimate over_outlines(const Setting& s, const Kernel& kernel) {
     if (outline.empty()) return;
     Fan fan;
     fan.contour = clipped(outline, s.horizons);
-    if (fan.contour.empty()) return;
+    if (fan.contour.empty() || is_inverted(fan.contour)) return;
     fan.index = index;
     if (alpha > 0) {
       centre_at_lobe(fan, s.view, alpha);
@@ -169,6 +175,12 @@ Estimate over_outlines(const Setting& s, const Kernel& kernel) {
   } else {
     const auto integrand = [&](const Vec3d& l, std::size_t) { return l.z > 0 ? kernel(l) : Rgb{}; };
     estimate = FanIntegrator(integrand, tolerance).integrate(fans);
+  }
+  // Below 0 there is no light: where a light is seen edge-on to within rounding, its outline's sense is noise.
+  for (int c = 0; c < 3; ++c) {
+    if (estimate.value[c] >= 0) continue;
+    estimate.error[c] -= estimate.value[c];
+    estimate.value[c] = 0;
   }
   estimate.value = estimate.value * radiance;
   estimate.error = estimate.error * radiance;
