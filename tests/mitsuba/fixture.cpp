@@ -63,6 +63,7 @@ Exported exported(const Scene& scene, const std::string& name, const ExportOptio
 
 std::vector<Picture> rendered(const std::vector<std::filesystem::path>& scenes, std::uint32_t samples, std::uint32_t seeds) {
   std::vector<MitsubaJob> jobs;
+  jobs.reserve(scenes.size());
   for (const std::filesystem::path& scene : scenes) jobs.push_back({scene, scene.stem().string(), samples, seeds, 1});
   Result<std::vector<Picture>> pictures = run_mitsuba(*mitsuba(), jobs, {});
   if (pictures) return std::move(*pictures);

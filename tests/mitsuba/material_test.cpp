@@ -34,9 +34,9 @@ std::uint32_t add_image(Scene& scene, const std::string& name) {
   Picture picture;
   picture.width = picture.height = 4;
   std::vector<float>& p = picture.add("", 3).pixels;
-  for (int y = 0; y < 4; ++y) {
-    for (int x = 0; x < 4; ++x) {
-      float* const texel = &p[static_cast<std::size_t>((y * 4 + x) * 3)];
+  for (std::size_t y = 0; y < 4; ++y) {
+    for (std::size_t x = 0; x < 4; ++x) {
+      float* const texel = &p[(y * 4 + x) * 3];
       texel[0] = 0.2f * static_cast<float>(x + 1), texel[1] = 0.2f * static_cast<float>(y + 1), texel[2] = 0.5f;
     }
   }
@@ -77,8 +77,9 @@ TEST(Materials, TextureIsUprightAndFactorMultiplies) {
   for (std::uint32_t y = 0; y < 8; ++y) {
     for (std::uint32_t x = 0; x < 8; ++x) {
       const Rgb seen = pixel(picture, x, y);
-      EXPECT_NEAR(seen.x, 1000 * 0.5 * 0.2 * (x / 2 + 1), 0.1) << x << ' ' << y;
-      EXPECT_NEAR(seen.y, 1000 * 0.2 * (y / 2 + 1), 0.1) << x << ' ' << y;
+      const std::uint32_t column = x / 2, row = y / 2;
+      EXPECT_NEAR(seen.x, 1000 * 0.5 * 0.2 * (column + 1), 0.1) << x << ' ' << y;
+      EXPECT_NEAR(seen.y, 1000 * 0.2 * (row + 1), 0.1) << x << ' ' << y;
       EXPECT_NEAR(seen.z, 500, 0.1);
     }
   }

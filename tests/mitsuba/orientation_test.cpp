@@ -16,7 +16,7 @@ std::string corner_picture() {
   Picture picture;
   picture.width = picture.height = 4;
   std::vector<float>& p = picture.add("", 3).pixels;
-  const auto set = [&](int x, int y, int channel) { p[static_cast<std::size_t>((y * 4 + x) * 3 + channel)] = 1; };
+  const auto set = [&](std::size_t x, std::size_t y, std::size_t channel) { p[(y * 4 + x) * 3 + channel] = 1; };
   set(0, 0, 0), set(3, 0, 1), set(0, 3, 2);  // red top left, green top right, blue bottom left
   const std::filesystem::path file = scratch() / "corners.exr";
   EXPECT_TRUE(write_exr(picture, file).ok());
@@ -154,7 +154,7 @@ TEST(Orientation, EnvironmentTexel) {
   Picture map;
   map.width = 16, map.height = 8;
   std::vector<float>& texels = map.add("", 3).pixels;
-  for (int c = 0; c < 3; ++c) texels[static_cast<std::size_t>((2 * 16 + 4) * 3 + c)] = 100;
+  for (std::size_t c = 0; c < 3; ++c) texels[(2 * 16 + 4) * 3 + c] = 100;
   ASSERT_TRUE(write_exr(map, scratch() / "texel.exr").ok());
   Light sky = light_of(EnvironmentShape{0});
   sky.emission.given = Emission::Given::as_file;
@@ -173,8 +173,8 @@ TEST(Orientation, EnvironmentTexel) {
   Picture rows;
   rows.width = 16, rows.height = 17;
   std::vector<float>& values = rows.add("", 3).pixels;
-  for (int r = 4; r <= 6; ++r) {
-    for (int c = 0; c < 3; ++c) values[static_cast<std::size_t>((r * 16 + 4) * 3 + c)] = r == 5 ? 100 : 50;
+  for (std::size_t r = 4; r <= 6; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) values[(r * 16 + 4) * 3 + c] = r == 5 ? 100 : 50;
   }
   ASSERT_TRUE(write_exr(rows, scratch() / "rows.exr").ok());
   const Picture hand = by_hand("texel_hand", R"(<emitter type="envmap"><string name="filename" value="rows.exr"/></emitter>
@@ -194,9 +194,9 @@ TEST(Orientation, EnvironmentTurnsWithItsTransform) {
   Picture map;
   map.width = 16, map.height = 8;
   std::vector<float>& texels = map.add("", 3).pixels;
-  for (int y = 3; y < 5; ++y) {
-    for (int x = 7; x < 9; ++x) {
-      for (int c = 0; c < 3; ++c) texels[static_cast<std::size_t>((y * 16 + x) * 3 + c)] = 100;
+  for (std::size_t y = 3; y < 5; ++y) {
+    for (std::size_t x = 7; x < 9; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) texels[(y * 16 + x) * 3 + c] = 100;
     }
   }
   ASSERT_TRUE(write_exr(map, scratch() / "side.exr").ok());
