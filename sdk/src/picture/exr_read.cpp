@@ -117,10 +117,7 @@ Result<Picture> read_pixels(Imf::InputFile& input, const std::filesystem::path& 
       const std::string name = channel_name(layer.name, layer.channels, c);
       const Imf::Channel* channel = header.channels().findChannel(name);
       if (channel->xSampling != 1 || channel->ySampling != 1) return unsuitable(file, "channel '" + name + "' is subsampled");
-      // The slice's base is where pixel (0, 0) would be, which the data window need not contain: integer arithmetic, not pointers.
-      const auto first = reinterpret_cast<std::intptr_t>(layer.pixels.data() + c);
-      const std::int64_t offset = (std::int64_t{window.min.y} * width + window.min.x) * static_cast<std::int64_t>(stride);
-      buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(first - offset), stride, stride * picture.width));
+      buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, layer.pixels.data() + c, window, stride, stride * picture.width));
     }
   }
   input.setFrameBuffer(buffer);

@@ -69,7 +69,7 @@ std::optional<Rgb> LightPainter::interpolated(std::uint32_t x, std::uint32_t y) 
   const Rgb inner = centre_[pixel - reach] + centre_[pixel + reach], outer = centre_[pixel - 3 * reach] + centre_[pixel + 3 * reach];
   const Rgb value = inner * (9.0 / 16) - outer / 16.0;
   const double bend = largest(inner - outer) / 16;
-  const double allowed = std::max(0.5 * std::sqrt(tolerance_.relative) * largest(value), tolerance_.absolute);
+  const double allowed = std::max(0.3 * std::sqrt(tolerance_.relative) * largest(value), tolerance_.absolute);
   return bend <= allowed ? std::optional(value) : std::nullopt;
 }
 

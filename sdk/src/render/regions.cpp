@@ -42,7 +42,7 @@ class Scanner {
     for (int i = 1; i < places_on_a_line; ++i) {
       Look right = look(static_cast<double>(i) / (places_on_a_line - 1), across);
       split(left, right, across, begin, pieces);
-      left = std::move(right);
+      left = right;
     }
     close(begin, 1, across, left.probe, pieces);
   }
@@ -62,12 +62,12 @@ class Scanner {
     while (b.s - a.s > narrowest) {
       Look middle = look((a.s + b.s) / 2, across);
       if (same(a.probe, middle.probe)) {
-        a = std::move(middle);
+        a = middle;
       } else if (same(b.probe, middle.probe)) {
-        b = std::move(middle);
+        b = middle;
       } else {
         split(a, middle, across, begin, pieces);
-        a = std::move(middle);
+        a = middle;
       }
     }
     const double edge = (a.s + b.s) / 2;

@@ -35,7 +35,8 @@ void add_surface_layers(const Stage& stage, const PinholeCamera& camera, const S
   Layer object = picture.add("object", 1), emitter = picture.add("emitter", 1), depth = picture.add("depth", 1);
   Layer normal = picture.add("normal", 3), albedo = picture.add("albedo", 3);
   for (std::size_t pixel = 0; pixel < object.pixels.size(); ++pixel) {
-    const auto x = static_cast<double>(pixel % picture.width), y = static_cast<double>(pixel / picture.width);
+    const std::size_t column = pixel % picture.width, row = pixel / picture.width;
+    const auto x = static_cast<double>(column), y = static_cast<double>(row);
     emitter.pixels[pixel] = survey.touches_emitter(pixel) ? 1.0f : 0.0f;
     const Ray ray = camera.through(x + 0.5, y + 0.5);
     const auto point = stage.first(ray);
