@@ -52,7 +52,7 @@ void print_scene(const Session& session, const Scene& scene, Need need) {
   rows.clear();
   if (has(need, Need::cameras)) {
     for (const Camera& camera : scene.cameras)
-      rows.emplace_back(camera.name, fmt::format("{:.4g} deg high", degrees.of({camera.vfov_rad})));
+      rows.emplace_back(camera.name.empty() ? "unnamed" : camera.name, fmt::format("{:.4g} deg high", degrees.of({camera.vfov_rad})));
     print_table(session, "cameras", rows);
   }
   rows.clear();

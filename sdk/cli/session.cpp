@@ -96,7 +96,9 @@ Bar::~Bar() { end_stage(); }
 void Bar::end_stage() {
   if (stage_.empty() || session_.common().quiet) return;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  fmt::print(stderr, "{}{}  {:.1f} s\n", terminal_ ? "\r\x1b[K" : "", stage_, seconds);
+  constexpr double worth_telling = 0.5;
+  if (terminal_) fmt::print(stderr, "\r\x1b[K");
+  if (seconds >= worth_telling) fmt::print(stderr, "{}  {:.1f} s\n", stage_, seconds);
   stage_.clear();
 }
 
