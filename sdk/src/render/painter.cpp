@@ -196,6 +196,8 @@ LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, con
   };
   std::map<std::uint32_t, Region> all;
   const bool cheap = light_.delta || regions.only_lambert;
+  Rgb between_pairs, previous;
+  bool second = false;
   for (const Node& node : cheap ? regions.nodes : regions.coarse) {
     const Rgb value = at(x + static_cast<double>(node.x), y + static_cast<double>(node.y), beta, counts);
     const auto weight = static_cast<double>(node.weight);
@@ -204,6 +206,10 @@ LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, con
     region.squares += squared(value) * weight;
     region.weight += weight;
     ++region.nodes;
+    // Nodes along scanlines come in pairs, one pair a piece: on a texture their difference is the error's measure, as in stratified().
+    if (second) between_pairs += squared((value - previous) * weight);
+    previous = value;
+    second = !second;
   }
   Measured out;
   Rgb low{infinite, infinite, infinite}, high{};
@@ -219,6 +225,7 @@ LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, con
       out.variance[c] += region.weight * region.weight * spread;
     }
   }
+  if (cheap && regions.textured) out.variance += between_pairs;
   out.variance += squared((high - low) * regions.area_error);
   return out;
 }

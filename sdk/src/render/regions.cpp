@@ -23,7 +23,7 @@ struct Piece {
   double across;  // the scanline's place
   std::uint64_t key;
   bool varies;  // curved or textured: one place cannot stand for all
-  bool lambert;
+  bool textured, lambert;
 };
 
 class Scanner {
@@ -76,7 +76,7 @@ class Scanner {
   }
 
   void close(double begin, double end, double across, const Probe& probe, std::vector<Piece>& pieces) const {
-    if (end > begin) pieces.push_back({begin, end, across, probe.key, varies(probe), is_lambert(probe)});
+    if (end > begin) pieces.push_back({begin, end, across, probe.key, varies(probe), is_textured(probe), is_lambert(probe)});
   }
 
   bool is_lambert(const Probe& probe) const {
@@ -84,11 +84,12 @@ class Scanner {
     return paint == nullptr || std::holds_alternative<Lambert>(paint->material.model);
   }
 
-  bool varies(const Probe& probe) const {
-    if (!probe.point) return true;
-    const Paint* paint = stage_.thing(probe.point->thing).paint;
-    return !probe.point->flat || (paint != nullptr && paint->textured());
+  bool is_textured(const Probe& probe) const {
+    const Paint* paint = probe.point ? stage_.thing(probe.point->thing).paint : nullptr;
+    return paint != nullptr && paint->textured();
   }
+
+  bool varies(const Probe& probe) const { return !probe.point || !probe.point->flat || is_textured(probe); }
 
   const Prober& prober_;
   const Stage& stage_;
@@ -202,6 +203,7 @@ Regions regions_of(const Prober& prober, const Stage& stage, std::uint32_t x, st
       add_centroid(scanner, own, area, number, regions.coarse);
     }
     add_along_pieces(scanner, own, lines, number, regions.nodes);
+    regions.textured = regions.textured || own.front().textured;
     regions.only_lambert = regions.only_lambert && own.front().lambert;
     ++number;
   }

@@ -20,6 +20,7 @@ struct Regions {
   std::vector<Node> nodes;   // along all scanlines: quadratic variation is integrated exactly along them
   std::vector<Node> coarse;  // one a region, at its centroid (exact where light varies linearly); several where the surface itself varies
   double area_error = 0;
+  bool textured = false;     // something in the pixel is
   bool only_lambert = true;  // what is seen is matt, black or a light
 };
 // `tolerance`: of the areas, in pixels. `seed`: of the places within regions whose shading varies.
