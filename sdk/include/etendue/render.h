@@ -14,7 +14,8 @@ struct RenderOptions {
   std::uint32_t width = 512, height = 512;
   std::uint32_t camera = 0;        // index into Scene::cameras
   std::vector<std::uint32_t> lit;  // lights that emit, by index; empty: all. The others keep their shapes and are black.
-  bool mitsuba_model = false;      // materials as mitsuba_twin() has them, windows of ranges off: what the exporter writes
+  // What the Mitsuba exporter writes: materials as mitsuba_twin() has them, no windows of ranges, every area light visible.
+  bool mitsuba_model = false;
   // What need not be resolved: the relative noise (standard deviation over value) per pixel of the picture that ours is compared
   // with, for one light. Shading and shadows are computed to a tenth of it. 0.01 suits a picture to look at.
   double expected_noise = 0.01;
