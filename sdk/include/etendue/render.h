@@ -17,7 +17,7 @@ struct RenderOptions {
   // What the Mitsuba exporter writes: materials as mitsuba_twin() has them, no windows of ranges, every area light visible.
   bool mitsuba_model = false;
   // What need not be resolved: the relative noise (standard deviation over value) per pixel of the picture that ours is compared
-  // with, for one light. Shading and shadows are computed to a tenth of it. 0.01 suits a picture to look at.
+  // with, for one light. Shading is computed to a fiftieth of it, shadows to a fifth. 0.01 suits a picture to look at.
   double expected_noise = 0.01;
   unsigned threads = 0;    // 0: all cores
   std::uint64_t seed = 1;  // of the shadow estimates
