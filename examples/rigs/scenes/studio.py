@@ -145,8 +145,8 @@ def lights_and_stands(model):
     dish = revolve([(0.087, 0.0), (0.088, 0.002), (0.060, 0.10), (0.050, 0.12), (0.050, 0.30), (0, 0.30)], 32).turned("x", 90)
     model.add("rim head", "black metal", aimed_mesh(dish, RIM, SUBJECT))
     w, h = (size / 2 for size in REFLECTOR_SIZE)
-    frame = [block(-w - 0.02, w + 0.02, s * h - 0.01, s * h + 0.01, -0.004, 0.02, 0.003) for s in (-1, 1)]
-    frame += [block(s * w - 0.01, s * w + 0.01, -h, h, -0.004, 0.02, 0.003) for s in (-1, 1)]
+    frame = [block(-w - 0.02, w + 0.02, s * h - 0.01, s * h + 0.01, 0.001, 0.02, 0.003) for s in (-1, 1)]
+    frame += [block(s * w - 0.01, s * w + 0.01, -h, h, 0.001, 0.02, 0.003) for s in (-1, 1)]
     model.add("reflector", "black metal", aimed_mesh(merged(*frame), REFLECTOR, SUBJECT))
 
 

@@ -26,7 +26,7 @@ struct Layer {
 //   "variance"               variance of each pixel's value (of the mean over seeds, for a reference)
 //   "light.NAME"             one light's part;  "light_variance.NAME" its variance
 //   "object"                 1 + index of the object at the pixel's centre, 0 for none, -1 - index for a light
-//   "emitter"                1 where the pixel touches a visible emitter or the environment, else 0
+//   "emitter"                1 where the pixel or one beside it touches a visible emitter or the environment, else 0
 //   "depth" "normal" "albedo"  at the centre: distance along the ray in metres (0: none), shading normal, base colour
 struct Picture {
   std::uint32_t width = 0, height = 0;

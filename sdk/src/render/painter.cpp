@@ -13,6 +13,7 @@ constexpr int pilot_points = 2;                      // a replicate: 16 samples 
 constexpr int fewest_points = 8, most_points = 128;  // a replicate, where shadows are mixed
 constexpr double shadow_share = 0.2;                 // of the expected noise
 constexpr double shading_share = 0.02;               // of the expected noise: errors of shading are alike in neighbours
+constexpr int most_cells = 8;                        // along a pixel's side
 constexpr double dark_share = 0.05;                  // of the typical luminance: what is darker is not judged
 
 constexpr std::uint64_t pilot_purpose = 0, shadow_purpose = 1, place_purpose = 2, typical_purpose = 3;
@@ -72,6 +73,11 @@ bool LightPainter::run(RowRunner& rows) {
   return done;
 }
 
+bool LightPainter::turns(std::size_t pixel) const {
+  constexpr double most = 0.15;
+  return survey_.turn(pixel) > most;
+}
+
 bool LightPainter::is_plain(const std::optional<SurfacePoint>& point) const {
   const Paint* paint = point ? stage_.thing(point->thing).paint : nullptr;
   return paint != nullptr && !paint->textured();
@@ -95,7 +101,8 @@ void LightPainter::pilot_row(std::uint32_t row, RayCounts& counts) {
 
 LightPainter::Surroundings LightPainter::surroundings(std::uint32_t x, std::uint32_t y) const {
   if (light_.delta) return {1, false};
-  if (!light_.analytic) return {0, true};
+  // On a surface that turns too fast no few places stand for the pixel: all light is sampled, as where it has no closed form.
+  if (!light_.analytic || turns(index(x, y))) return {0, true};
   if (!shadows_) return {1, false};
   double visible = 0, all = 0;
   for (std::uint32_t j = y > 0 ? y - 1 : 0; j <= std::min(y + 1, options_.height - 1); ++j) {
@@ -172,6 +179,7 @@ LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, do
   // With g = |f_xx / f| the next terms are of the order g^2: g^2 / 340 here, g^2 / 4320 and g^3 / 2e6 for the two quadratures below.
   constexpr double gentle = 0.01, steep = 0.1;
   const std::optional<Curvature> bend = curvature(x, y);
+  if (light_.delta && turns(pixel)) return stratified(x, y, beta, most_cells, counts);
   if (bend && bend->relative < gentle) {
     out.value += (centre_[pixel] + bend->correction) * beta;
     return out;
@@ -233,11 +241,11 @@ LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, con
 LightPainter::Measured LightPainter::sampled(std::uint32_t x, std::uint32_t y, const Surroundings& around,
                                              const std::optional<SurfacePoint>& centre, RayCounts& counts) const {
   const std::size_t pixel = index(x, y);
-  if (light_.analytic && !shadows_) return {};
+  if (light_.analytic && !shadows_ && !around.mixed) return {};
   int points = pilot_points;
   std::uint64_t purpose = pilot_purpose;
   if (around.mixed) {
-    points = points_for(shadow_share * options_.expected_noise, light_.analytic ? 0.5 : 1.0);
+    points = points_for(shadow_share * options_.expected_noise, around.beta > 0 ? 0.5 : 1.0);
     purpose = shadow_purpose;
   } else {
     // The pilot's own samples are repeated, unless they are known to add nothing.
@@ -258,6 +266,7 @@ void LightPainter::paint_row(std::uint32_t row, RayCounts& counts) {
     const Measured direct = regions != nullptr ? split(x, row, *regions, around.beta, counts) : smooth(x, row, around.beta, centre, counts);
     value_[pixel] = direct.value;
     variance_[pixel] = direct.variance;
+    if (!light_.delta) variance_[pixel] += Rgb{1, 1, 1} * (around.beta * around.beta * tolerance_.absolute * tolerance_.absolute);
     if (light_.delta || (regions == nullptr && (!centre || stage_.thing(centre->thing).paint == nullptr))) continue;
     const Measured shadow = sampled(x, row, around, centre, counts);
     value_[pixel] += shadow.value;

@@ -54,6 +54,7 @@ class LightPainter {
   void paint_row(std::uint32_t row, RayCounts& counts);
   Surroundings surroundings(std::uint32_t x, std::uint32_t y) const;
   bool centre_is_needed(std::uint32_t x, std::uint32_t y) const;
+  bool turns(std::size_t pixel) const;
   bool is_plain(const std::optional<SurfacePoint>& point) const;
   PixelTarget target(std::uint32_t x, std::uint32_t y, const SurfacePoint* plane) const;
   Rgb at(double x, double y, double beta, RayCounts& counts) const;

@@ -6,11 +6,12 @@
 namespace etendue::rendering {
 namespace {
 
-// Both on a curved surface: a step from one to the other must run along the surface, and the surface must not turn away meanwhile.
+// A step from one to the other must run along the surface, and the surface must not turn away meanwhile; two flat faces must be of one
+// plane.
 bool continuous(const SurfacePoint& a, const SurfacePoint& b) {
-  if (a.flat && b.flat) return true;
-  constexpr double most_rise = 0.7, least_cosine = 0.5;
   const Vec3d step = b.position - a.position;
+  if (a.flat && b.flat) return dot(a.normal, b.normal) > 1 - 1e-6 && std::abs(dot(step, a.geometric_normal)) <= 1e-3 * length(step);
+  constexpr double most_rise = 0.7, least_cosine = 0.5;
   const double rise = most_rise * length(step);
   return std::abs(dot(step, a.geometric_normal)) <= rise && std::abs(dot(step, b.geometric_normal)) <= rise &&
          dot(a.normal, b.normal) >= least_cosine;

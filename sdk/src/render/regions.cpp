@@ -20,9 +20,9 @@ struct Look {
 // A stretch of a scanline without a discontinuity.
 struct Piece {
   double begin, end;
-  double across;  // the scanline's place
-  std::uint64_t key;
-  bool varies;  // curved or textured: one place cannot stand for all
+  double across;     // the scanline's place
+  std::size_t kind;  // equal for what is the same, see same()
+  bool varies;       // curved or textured: one place cannot stand for all
   bool textured, lambert;
 };
 
@@ -36,7 +36,7 @@ class Scanner {
     return along_x_ ? Node{a, b, w, region} : Node{b, a, w, region};
   }
 
-  void scan(double across, std::vector<Piece>& pieces) const {
+  void scan(double across, std::vector<Piece>& pieces) {
     Look left = look(0, across);
     double begin = 0;
     for (int i = 1; i < places_on_a_line; ++i) {
@@ -47,7 +47,7 @@ class Scanner {
     close(begin, 1, across, left.probe, pieces);
   }
 
-  Probe look_at(double along, double across) const { return look(along, across).probe; }
+  std::size_t kind_at(double along, double across) { return kind_of(look(along, across).probe); }
 
  private:
   Look look(double along, double across) const {
@@ -56,7 +56,7 @@ class Scanner {
   }
 
   // Finds what lies between two places: bisection towards the edge, both halves if the middle is a third thing.
-  void split(const Look& left, const Look& right, double across, double& begin, std::vector<Piece>& pieces) const {
+  void split(const Look& left, const Look& right, double across, double& begin, std::vector<Piece>& pieces) {
     if (same(left.probe, right.probe)) return;
     Look a = left, b = right;
     while (b.s - a.s > narrowest) {
@@ -75,8 +75,15 @@ class Scanner {
     begin = edge;
   }
 
-  void close(double begin, double end, double across, const Probe& probe, std::vector<Piece>& pieces) const {
-    if (end > begin) pieces.push_back({begin, end, across, probe.key, varies(probe), is_textured(probe), is_lambert(probe)});
+  void close(double begin, double end, double across, const Probe& probe, std::vector<Piece>& pieces) {
+    if (end > begin) pieces.push_back({begin, end, across, kind_of(probe), varies(probe), is_textured(probe), is_lambert(probe)});
+  }
+
+  std::size_t kind_of(const Probe& probe) {
+    const auto known = std::find_if(kinds_.begin(), kinds_.end(), [&](const Probe& kind) { return same(kind, probe); });
+    const auto kind = static_cast<std::size_t>(known - kinds_.begin());
+    if (known == kinds_.end()) kinds_.push_back(probe);
+    return kind;
   }
 
   bool is_lambert(const Probe& probe) const {
@@ -96,6 +103,7 @@ class Scanner {
   std::uint32_t x_, y_;
   bool along_x_;
   RayCounts& counts_;
+  std::vector<Probe> kinds_;  // met so far
 };
 
 // Scanlines should cross the edges: they run along x if the corners differ more from left to right than from top to bottom.
@@ -106,13 +114,13 @@ bool runs_along_x(const Prober& prober, std::uint32_t x, std::uint32_t y, RayCou
   return horizontal >= vertical;
 }
 
-std::map<std::uint64_t, double> areas_of(const std::vector<Piece>& pieces, int lines) {
-  std::map<std::uint64_t, double> areas;
-  for (const Piece& p : pieces) areas[p.key] += (p.end - p.begin) / lines;
+std::map<std::size_t, double> areas_of(const std::vector<Piece>& pieces, int lines) {
+  std::map<std::size_t, double> areas;
+  for (const Piece& p : pieces) areas[p.kind] += (p.end - p.begin) / lines;
   return areas;
 }
 
-double largest_difference(const std::map<std::uint64_t, double>& a, const std::map<std::uint64_t, double>& b) {
+double largest_difference(const std::map<std::size_t, double>& a, const std::map<std::size_t, double>& b) {
   double most = 0;
   for (const auto& [key, area] : a) {
     const auto other = b.find(key);
@@ -125,7 +133,7 @@ double largest_difference(const std::map<std::uint64_t, double>& a, const std::m
 }
 
 // One node at the region's centroid if that is inside the region (shading is linear there as far as a pixel can tell).
-void add_centroid(const Scanner& scanner, const std::vector<Piece>& pieces, double area, std::uint32_t region, std::vector<Node>& nodes) {
+void add_centroid(Scanner& scanner, const std::vector<Piece>& pieces, double area, std::uint32_t region, std::vector<Node>& nodes) {
   Vec2d centroid;
   double total = 0;
   for (const Piece& p : pieces) {
@@ -136,7 +144,7 @@ void add_centroid(const Scanner& scanner, const std::vector<Piece>& pieces, doub
   }
   centroid = {centroid.x / total, centroid.y / total};
   Vec2d chosen = centroid;
-  if (scanner.look_at(centroid.x, centroid.y).key != pieces.front().key) {
+  if (scanner.kind_at(centroid.x, centroid.y) != pieces.front().kind) {
     const auto distance = [&](const Piece& p) { return std::hypot((p.begin + p.end) / 2 - centroid.x, p.across - centroid.y); };
     const Piece& nearest =
         *std::min_element(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) { return distance(a) < distance(b); });
@@ -177,16 +185,16 @@ void add_along_pieces(const Scanner& scanner, const std::vector<Piece>& pieces, 
 
 Regions regions_of(const Prober& prober, const Stage& stage, std::uint32_t x, std::uint32_t y, double tolerance, std::uint64_t seed,
                    RayCounts& counts) {
-  const Scanner scanner(prober, stage, x, y, runs_along_x(prober, x, y, counts), counts);
+  Scanner scanner(prober, stage, x, y, runs_along_x(prober, x, y, counts), counts);
   std::vector<Piece> pieces;
-  std::map<std::uint64_t, double> areas;
+  std::map<std::size_t, double> areas;
   Regions regions;
   int lines = first_lines;
   // The midpoint rule over scanlines: an edge that leaves through a side of the pixel costs O(1 / lines^2), so doubling divides by 4.
   for (;; lines *= 2) {
     pieces.clear();
     for (int i = 0; i < lines; ++i) scanner.scan((i + 0.5) / lines, pieces);
-    std::map<std::uint64_t, double> finer = areas_of(pieces, lines);
+    std::map<std::size_t, double> finer = areas_of(pieces, lines);
     const double difference = largest_difference(areas, finer);
     areas = std::move(finer);
     regions.area_error = difference / 3;
@@ -194,9 +202,9 @@ Regions regions_of(const Prober& prober, const Stage& stage, std::uint32_t x, st
   }
   Random random(seed);
   std::uint32_t number = 0;
-  for (const auto& [key, area] : areas) {
+  for (const auto& [kind, area] : areas) {
     std::vector<Piece> own;
-    std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(own), [key = key](const Piece& p) { return p.key == key; });
+    std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(own), [kind = kind](const Piece& p) { return p.kind == kind; });
     if (std::any_of(own.begin(), own.end(), [](const Piece& p) { return p.varies; })) {
       add_stratified(scanner, own, area, number, random, regions.coarse);
     } else {

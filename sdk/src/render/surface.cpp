@@ -135,4 +135,16 @@ std::optional<eval::ShadingPoint> shading_point(const Paint* paint, const Surfac
   return eval::ShadingPoint{point.position, normal, surface_normal, view, brdf_at(*paint, point.uv)};
 }
 
+double lobe_width(const SurfaceModel& model) {
+  constexpr double narrowest = 1e-3;
+  struct {
+    double operator()(const Lambert&) const { return 1; }
+    double operator()(const Principled& m) const { return m.roughness * m.roughness; }
+    double operator()(const Standard& m) const { return m.roughness * m.roughness; }
+    double operator()(const Conductor& m) const { return m.alpha; }
+    double operator()(const MetalRough& m) const { return m.roughness * m.roughness; }
+  } width;
+  return std::max(narrowest, std::visit(width, model));
+}
+
 }  // namespace etendue::rendering

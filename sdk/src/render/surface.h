@@ -62,6 +62,10 @@ SurfacePoint surface_point(const Thing& thing, const Ray& ray, const Hit& hit);
 bool is_hole(const Paint& paint, Vec2d uv);
 Rgb base_colour_at(const Paint& paint, Vec2d uv);
 
+// Radians over which the normal may turn while what is reflected from one direction stays about the same: alpha, the width of GGX's half
+// vectors, or 1 for matt surfaces.
+double lobe_width(const SurfaceModel& model);
+
 // What light falls on, or nothing: the back of a one-sided surface, or a black one.
 std::optional<eval::ShadingPoint> shading_point(const Paint* paint, const SurfacePoint& point, const Vec3d& view);
 

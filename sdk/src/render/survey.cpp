@@ -18,6 +18,7 @@ Survey::Survey(const Stage& stage, const PinholeCamera& camera, const SurveyOpti
       suspected_(keys_.size()),
       split_(keys_.size()),
       emitter_(keys_.size()),
+      turn_(keys_.size()),
       regions_(keys_.size()),
       environment_(std::any_of(stage.lights().begin(), stage.lights().end(),
                                [](const StageLight& l) { return std::holds_alternative<eval::EnvironmentEmitter>(l.emitter.shape); })) {}
@@ -32,6 +33,12 @@ bool Survey::is_emitter(const Probe& probe) const {
   return environment_ || probe.key != nothing_key;
 }
 
+double Survey::turn_between(const Probe& a, const Probe& b) const {
+  if (a.key != b.key || !a.point || !b.point || (a.point->flat && b.point->flat)) return 0;
+  const Paint* paint = stage_.thing(a.point->thing).paint;
+  return paint != nullptr ? length(cross(a.point->normal, b.point->normal)) / lobe_width(paint->material.model) : 0;
+}
+
 void Survey::look_first(std::uint32_t row, RayCounts& counts) {
   const auto corners = [&](std::uint32_t y) {
     std::vector<Probe> line;
@@ -44,29 +51,33 @@ void Survey::look_first(std::uint32_t row, RayCounts& counts) {
     const std::size_t pixel = std::size_t{row} * options_.width + x;
     const Probe centre = prober_.look(x + 0.5, row + 0.5, counts);
     keys_[pixel] = centre.key;
-    bool uniform = true, emitter = is_emitter(centre);
-    const auto compare = [&](const Probe& other) {
-      uniform = uniform && same(centre, other);
-      emitter = emitter || is_emitter(other);
-    };
-    for (const Probe* corner : {&above[x], &above[x + 1], &below[x], &below[x + 1]}) compare(*corner);
+    std::vector<Probe> probes{centre, above[x], above[x + 1], below[x], below[x + 1]};
     Random random(mixed(options_.seed) ^ pixel);
     for (int i = 0; i < first_probes; ++i) {
       const double u = random.next(), v = random.next();
-      compare(prober_.look(x + u, row + v, counts));
+      probes.push_back(prober_.look(x + u, row + v, counts));
     }
-    suspected_[pixel] = uniform ? 0 : 1;
-    emitter_[pixel] = emitter ? 1 : 0;
+    double turn = 0;
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      if (!same(centre, probes[i])) suspected_[pixel] = 1;
+      if (is_emitter(probes[i])) emitter_[pixel] = 1;
+      for (std::size_t j = 0; j < i; ++j) turn = std::max(turn, turn_between(probes[i], probes[j]));
+    }
+    turn_[pixel] = static_cast<float>(turn);
   }
 }
 
-bool Survey::near_an_edge(std::uint32_t x, std::uint32_t y) const {
+bool Survey::any_around(const std::vector<std::uint8_t>& flags, std::uint32_t x, std::uint32_t y) const {
   for (std::uint32_t j = y > 0 ? y - 1 : 0; j <= std::min(y + 1, options_.height - 1); ++j) {
     for (std::uint32_t i = x > 0 ? x - 1 : 0; i <= std::min(x + 1, options_.width - 1); ++i) {
-      if (suspected_[std::size_t{j} * options_.width + i] != 0) return true;
+      if (flags[std::size_t{j} * options_.width + i] != 0) return true;
     }
   }
   return false;
+}
+
+bool Survey::touches_emitter(std::size_t pixel) const {
+  return any_around(emitter_, static_cast<std::uint32_t>(pixel % options_.width), static_cast<std::uint32_t>(pixel / options_.width));
 }
 
 // Beside an edge a closer look: something narrow may have been missed between the first probes.
@@ -74,7 +85,7 @@ void Survey::look_again(std::uint32_t row, RayCounts& counts) {
   for (std::uint32_t x = 0; x < options_.width; ++x) {
     const std::size_t pixel = std::size_t{row} * options_.width + x;
     bool split = suspected_[pixel] != 0;
-    if (!split && near_an_edge(x, row)) {
+    if (!split && any_around(suspected_, x, row)) {
       const Probe centre = prober_.look(x + 0.5, row + 0.5, counts);
       Random random(mixed(options_.seed + 1) ^ pixel);
       for (int i = 0; i < further_probes && !split; ++i) {
