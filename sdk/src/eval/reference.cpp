@@ -1,4 +1,5 @@
 // The definition of the answer: closed forms where there are any, else fans over the exact outline.
+#include "disk_rule.h"
 #include "environment.h"
 #include "fan.h"
 #include "illuminance.h"
@@ -7,6 +8,7 @@
 #include "line_integral.h"
 #include "modulation.h"
 #include "punctual.h"
+#include "round_light.h"
 
 #include <algorithm>
 
@@ -141,9 +143,50 @@ Estimate over_line(const Setting& s, const Kernel& kernel, const LineEmitter& li
   return estimate;
 }
 
+// Luminance of the light wherever it is seen.
+Rgb luminance_of(const Emitter& emitter) {
+  const auto* sun = std::get_if<DistantEmitter>(&emitter.shape);
+  if (sun == nullptr) return emitter.radiance;
+  const double sine = std::sin(sun->radius_rad);
+  return sun->illuminance / (pi * sine * sine);
+}
+
+bool reached(const Estimate& e, const Tolerance& tolerance) {
+  for (int c = 0; c < 3; ++c) {
+    if (!(e.error[c] <= std::max(tolerance.relative * e.value[c], tolerance.absolute))) return false;
+  }
+  return true;
+}
+
+// One rule over a round light as a whole, where it is small enough; what it reaches is for the caller to judge. No evaluations: not tried.
+template <class Kernel>
+Estimate over_small_disk(const Setting& s, const Kernel& kernel, double alpha, const Tolerance& tolerance) {
+  constexpr double largest7 = 0.5, largest17 = 0.7, tightest = 1e-7;
+  Estimate estimate;
+  if (tolerance.relative < tightest) return estimate;
+  const auto light = clear_round_light(s.emitter, s.frame, s.horizons);
+  if (!light) return estimate;
+  const auto integrand = [&](double x, double y) {
+    const RoundLight::Place place = light->at(x, y);
+    return kernel(place.direction) * place.density;
+  };
+  const auto take = [&](const DiskValue& v, std::uint64_t nodes) {
+    estimate = {v.mean * pi, (v.error + v.mean * 1e-13) * pi, estimate.evaluations + nodes};
+  };
+  const double size = relative_size(*light, s.view, alpha);
+  if (size <= largest7) take(disk_rule7(integrand), 7);
+  if (size <= largest17 && (estimate.evaluations == 0 || !reached(estimate, tolerance))) take(disk_rule17(integrand), 17);
+  return estimate;
+}
+
 template <class Kernel>
 Estimate over_outlines(const Setting& s, const Kernel& kernel) {
   const double alpha = kernel.facts().alpha;
+  const Rgb radiance = luminance_of(s.emitter);
+  const Tolerance tolerance = Scaled(radiance)(s.tolerance);
+  const bool modulated = is_modulated(s.emitter);
+  const Estimate tried = modulated ? Estimate{} : over_small_disk(s, kernel, alpha, tolerance);
+  if (tried.evaluations > 0 && reached(tried, tolerance)) return {tried.value * radiance, tried.error * radiance, tried.evaluations};
   std::vector<Fan> fans;
   each_outline(s.emitter, s.frame, [&](const Contour& outline, std::size_t index) {
     if (outline.empty()) return;
@@ -159,14 +202,8 @@ Estimate over_outlines(const Setting& s, const Kernel& kernel) {
     fans.push_back(std::move(fan));
   });
   if (fans.empty()) return {};
-  Rgb radiance = s.emitter.radiance;
-  if (const auto* sun = std::get_if<DistantEmitter>(&s.emitter.shape)) {
-    const double sine = std::sin(sun->radius_rad);
-    radiance = sun->illuminance / (pi * sine * sine);
-  }
-  const Tolerance tolerance = Scaled(radiance)(s.tolerance);
   Estimate estimate;
-  if (is_modulated(s.emitter)) {
+  if (modulated) {
     const auto integrand = [&](const Vec3d& l, std::size_t index) {
       if (!(l.z > 0)) return Rgb{};
       return kernel(l) * modulation_along(s.emitter, index, s.point.position, s.frame.to_world(l));
@@ -176,6 +213,7 @@ Estimate over_outlines(const Setting& s, const Kernel& kernel) {
     const auto integrand = [&](const Vec3d& l, std::size_t) { return l.z > 0 ? kernel(l) : Rgb{}; };
     estimate = FanIntegrator(integrand, tolerance).integrate(fans);
   }
+  estimate.evaluations += tried.evaluations;
   // Below 0 there is no light: where a light is seen edge-on to within rounding, its outline's sense is noise.
   for (int c = 0; c < 3; ++c) {
     if (estimate.value[c] >= 0) continue;
