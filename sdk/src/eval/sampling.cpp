@@ -22,6 +22,10 @@ bool faces(const Vec3d& on_plane, const Vec3d& normal, const Vec3d& position, bo
   return height > 0 || (two_sided && height < 0);
 }
 
+bool seen(const PolygonEmitter& e, const Vec3d& position, bool two_sided) {
+  return e.vertices.size() >= 3 && faces(e.vertices[0], e.normal, position, two_sided);
+}
+
 TriangleSampler polygon_sampler(const PolygonEmitter& e, const Vec3d& position) {
   std::vector<std::array<Vec3d, 3>> triangles;
   triangles.reserve(e.triangles.size());
@@ -87,8 +91,7 @@ struct Along {
     return met(*distance, *distance * *distance / (pi * e.radius * e.radius * std::abs(dot(direction, e.normal))));
   }
   LightSample operator()(const PolygonEmitter& e) const {
-    if (e.vertices.size() < 3 || !faces(e.vertices[0], e.normal, position, emitter.two_sided)) return missed();
-    const auto distance = hit_polygon(e, position, direction);
+    const auto distance = seen(e, position, emitter.two_sided) ? hit_polygon(e, position, direction) : std::nullopt;
     return distance ? met(*distance, polygon_sampler(e, position).pdf(direction, *distance)) : missed();
   }
   LightSample operator()(const TubeEmitter& e) const {
@@ -96,7 +99,13 @@ struct Along {
       const auto wall = emitter.two_sided ? hit_tube(e, position, direction) : std::nullopt;
       return wall ? met(*wall, 0.25 / pi) : missed();
     }
-    const double pdf = TubeSampler(e, position).pdf(direction);
+    // All that is sampled lies within the sphere around the tube.
+    const double reach = (0.5 * length(e.b - e.a) + e.radius) * (1 + 1e-9);
+    if (!hit_sphere((e.a + e.b) * 0.5, reach, position, direction)) return missed();
+    return on_tube(e, TubeSampler(e, position));
+  }
+  LightSample on_tube(const TubeEmitter& e, const TubeSampler& sampler) const {
+    const double pdf = sampler.pdf(direction);
     auto distance = hit_tube(e, position, direction);
     // Through the mouth of a tube without caps one sees its dark inside.
     if (distance && e.caps == Caps::none) {
@@ -150,10 +159,21 @@ struct Sample {
     const double r = e.radius * std::sqrt(u.x), phi = 2 * pi * u.y;
     return along(normalised(e.centre + basis.tangent * (r * std::cos(phi)) + basis.bitangent * (r * std::sin(phi)) - position));
   }
-  LightSample operator()(const PolygonEmitter& e) const { return along(polygon_sampler(e, position).sample(u)); }
+  // The samplers of polygons and tubes are costly: the one that chose the direction also tells its density.
+  LightSample operator()(const PolygonEmitter& e) const {
+    if (!seen(e, position, emitter.two_sided)) return {};
+    const TriangleSampler sampler = polygon_sampler(e, position);
+    const Vec3d direction = sampler.sample(u);
+    if (direction == Vec3d{}) return {};
+    const Along ray{emitter, position, direction};
+    const auto distance = hit_polygon(e, position, direction);
+    return distance ? ray.met(*distance, sampler.pdf(direction, *distance)) : ray.missed();
+  }
   LightSample operator()(const TubeEmitter& e) const {
-    const bool inside = inside_tube(e.a - position, e.b - position, e.radius, e.caps);
-    return along(inside ? uniform_direction(u) : TubeSampler(e, position).sample(u));
+    if (inside_tube(e.a - position, e.b - position, e.radius, e.caps)) return along(uniform_direction(u));
+    const TubeSampler sampler(e, position);
+    const Vec3d direction = sampler.sample(u);
+    return direction == Vec3d{} ? LightSample{} : Along{emitter, position, direction}.on_tube(e, sampler);
   }
   // Uniform in psi (line.h), which is nearly proportional to what arrives.
   LightSample operator()(const LineEmitter& e) const {

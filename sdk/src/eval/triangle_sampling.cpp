@@ -36,19 +36,23 @@ double solid_angle_of(const std::array<Vec3d, 3>& t) {
 }
 
 TriangleSampler::TriangleSampler(std::vector<std::array<Vec3d, 3>> triangles) : triangles_(std::move(triangles)) {
-  std::vector<double> areas, angles;
+  running_.reserve(triangles_.size());
   Vec3d vector_area;
   for (const auto& t : triangles_) {
     const Vec3d n = cross(t[1] - t[0], t[2] - t[0]) * 0.5;
     vector_area += n;
     area_ += length(n);
     solid_angle_ += solid_angle_of(t);
-    areas.push_back(area_);
-    angles.push_back(solid_angle_);
+    running_.push_back(solid_angle_);
   }
   normal_ = normalised(vector_area);
   by_area_ = solid_angle_ < smallest_solid_angle;
-  running_ = by_area_ ? areas : angles;
+  if (!by_area_) return;
+  double area = 0;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const auto& t = triangles_[i];
+    running_[i] = area += 0.5 * length(cross(t[1] - t[0], t[2] - t[0]));
+  }
 }
 
 Vec3d TriangleSampler::sample(Vec2d u) const {
