@@ -56,6 +56,7 @@ Result<std::unique_ptr<Stage>> Stage::build(const Scene& scene, const RenderOpti
   // Embree's vertices and origins are floats: half a unit in the last place of the largest coordinate, a few times over.
   const Bounds bounds = bounds_of(scene);
   stage->offset_ = 5e-7 * (bounds.empty() ? 1.0 : std::max(largest_coordinate(bounds), 1e-3));
+  stage->mitsuba_rays_ = options.mitsuba_model;
   if (stage->lights_.empty()) diagnostics.warning("NO_LIGHT", "no light of the scene emits: the picture is black", {scene.file, 0, 0, {}});
   return stage;
 }
@@ -225,11 +226,28 @@ std::optional<SurfacePoint> Stage::first(const Ray& ray) const {
   return std::nullopt;
 }
 
-bool Stage::blocked(const SurfacePoint& from, const Vec3d& direction, double distance, std::uint32_t skip) const {
+// Mitsuba's shadow rays (Interaction::offset_p, spawn_ray_to) start RayEpsilon = 1500 x 2^-24 times 1 + |p|_inf above the surface, in the
+// scene's unit, and end ten RayEpsilon of their length before the light: in a scene of centimetres its shadows are visibly short.
+Ray Stage::shadow_ray(const SurfacePoint& from, const Vec3d& direction, double& distance) const {
   const double side = dot(from.geometric_normal, direction) < 0 ? -1 : 1;
-  const Ray ray{from.position + from.geometric_normal * (side * offset_), direction};
+  if (!mitsuba_rays_) {
+    distance *= 1 - 1e-4;
+    return {from.position + from.geometric_normal * (side * offset_), direction};
+  }
+  constexpr double epsilon = 1500.0 / (1 << 24);
+  const Vec3d& p = from.position;
+  const double above = epsilon * (1 + std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
+  const Vec3d origin = p + from.geometric_normal * (side * above);
+  if (!std::isfinite(distance)) return {origin, direction};
+  const Vec3d to_light = p + direction * distance - origin;
+  distance = length(to_light) * (1 - 10 * epsilon);
+  return {origin, normalised(to_light)};
+}
+
+bool Stage::blocked(const SurfacePoint& from, const Vec3d& direction, double distance, std::uint32_t skip) const {
   // A ray ends a little before the light, whose own triangles are not in the way.
-  const double end = distance * (1 - 1e-4);
+  double end = distance;
+  const Ray ray = shadow_ray(from, direction, end);
   if (!holes_) return rays_.blocked(ray, 0, end, skip);
   double begin = 0;
   for (int i = 0; i < most_holes_along_a_ray; ++i) {

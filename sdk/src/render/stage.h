@@ -63,7 +63,10 @@ class Stage {
   std::vector<StageLight> lights_;
   Rays rays_;
   bool holes_ = false;
-  double offset_ = 0;  // how far above a surface a shadow ray starts, in metres
+  Ray shadow_ray(const SurfacePoint& from, const Vec3d& direction, double& distance) const;
+
+  double offset_ = 0;          // how far above a surface a shadow ray starts, in metres
+  bool mitsuba_rays_ = false;  // shadow rays as Mitsuba's
 };
 
 }  // namespace etendue::rendering
