@@ -17,7 +17,8 @@ Light with_luminance(Shape shape, double luminance, Transform transform = {}) {
   Light light;
   light.name = "light";
   light.shape = std::move(shape);
-  light.emission = {Emission::Given::luminance, luminance};
+  light.emission.given = Emission::Given::luminance;
+  light.emission.value = luminance;
   light.transform = transform;
   return light;
 }
@@ -25,7 +26,8 @@ Light point_light(double candela, const Vec3d& position) {
   Light light;
   light.name = "point";
   light.shape = PointShape{};
-  light.emission = {Emission::Given::intensity, candela};
+  light.emission.given = Emission::Given::intensity;
+  light.emission.value = candela;
   light.transform.translation = position;
   return light;
 }
@@ -265,13 +267,13 @@ TEST(Render, UniformEnvironment) {
   scene.objects[0] = object(SphereGeometry{0.8});
   scene.cameras[0] = look_at({0, 0, 4}, {0, 0, 0}, 0.6);
   scene.lights.push_back(with_luminance(EnvironmentShape{}, 80));
-  RenderOptions options = small(11, 11);
+  RenderOptions options = small(15, 15);
   options.expected_noise = 0.05;
   const Rendered out = rendered(scene, options);
   EXPECT_FLOAT_EQ(green(out.picture, "", 0), 80);
   double sum = 0, variance = 0;
   int count = 0;
-  for (std::size_t i = 0; i < 121; ++i) {
+  for (std::size_t i = 0; i < 15 * 15; ++i) {
     if (out.picture.find("emitter")->pixels[i] != 0) continue;
     sum += static_cast<double>(green(out.picture, "", i));
     variance += static_cast<double>(green(out.picture, "variance", i));
@@ -298,7 +300,8 @@ TEST(Render, TexturesAreIntegratedOverThePixel) {
   Light sun;
   sun.name = "sun";
   sun.shape = DistantShape{};
-  sun.emission = {Emission::Given::illuminance, pi};
+  sun.emission.given = Emission::Given::illuminance;
+  sun.emission.value = pi;
   sun.transform = facing_down({0, 0, 0});
   scene.lights.push_back(sun);
   const Rendered out = rendered(scene, small(8, 8));
@@ -309,6 +312,54 @@ TEST(Render, TexturesAreIntegratedOverThePixel) {
   // The frame's sides are not whole periods: half a period of 1.25 m over 2.5 m at the most, though stripes and frame are both symmetric.
   EXPECT_NEAR(sum / 64, 0.5, 0.1);
   EXPECT_GT(variance, 0);
+}
+
+// A quad facing +Z whose texture is black on the left and white on the right.
+TEST(Render, AMeshLightShowsItsTextureAtItsTextureCoordinates) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "etendue_render_light.ppm";
+  std::ofstream(file, std::ios::binary) << "P6\n2 1\n255\n" << std::string("\0\0\0\xff\xff\xff", 6);
+  Scene scene;
+  scene.images.push_back({file.string(), nullptr, "", "halves"});
+  Mesh quad;
+  quad.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  quad.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+  quad.indices = {0, 1, 2, 0, 2, 3};
+  scene.meshes.push_back(quad);
+  scene.lights.push_back(with_luminance(MeshShape{0, {1, 1, 1}}, 300));
+  Texture texture;
+  texture.nearest = true;
+  scene.lights[0].emission.texture = texture;
+  scene.cameras.push_back(look_at({0, 0, 4}, {0, 0, 0}, 0.3));
+  const Rendered out = rendered(scene, small(8, 8));
+  for (std::size_t i = 0; i < 64; ++i) EXPECT_FLOAT_EQ(green(out.picture, "", i), i % 8 < 4 ? 0.0f : 300.0f) << i;
+}
+
+// Mitsuba's shadow rays start 1500 x 2^-24 = 9e-5 m above a surface near the origin: what is lower throws no shadow there.
+TEST(Render, TheMitsubaModelLosesShadowsOfThingsThatAreLowerThanItsRaysStart) {
+  Scene scene;
+  scene.objects.push_back(object(PlaneGeometry{0.002}));
+  scene.objects.push_back(object(BoxGeometry{{2e-4, 5e-5, 2e-4}}, at({0, 2.5e-5, 0})));
+  scene.cameras.push_back(look_at({0, 0.002, 0.0005}, {0, 0, 0}, 0.3));
+  Light sun;
+  sun.name = "sun";
+  sun.shape = DistantShape{};
+  sun.emission.given = Emission::Given::illuminance;
+  sun.emission.value = pi;
+  const Vec3d towards = normalised(Vec3d{1, 0.4, 0});  // 22 degrees high: shadows are 1.25e-4 long
+  sun.transform.columns = {Vec3d{0, 0, 1}, cross(towards, Vec3d{0, 0, 1}), towards};
+  scene.lights.push_back(sun);
+  const auto dark_floor = [&](bool mitsuba_model) {
+    RenderOptions options = small();
+    options.mitsuba_model = mitsuba_model;
+    const Picture picture = rendered(scene, options).picture;
+    const double lit = 0.5 * 0.4 / std::sqrt(1.16);
+    int dark = 0;
+    for (std::size_t i = 0; i < 24 * 24; ++i)
+      dark += picture.find("object")->pixels[i] == 1 && static_cast<double>(green(picture, "", i)) < 0.1 * lit ? 1 : 0;
+    return dark;
+  };
+  EXPECT_GT(dark_floor(false), 20);
+  EXPECT_EQ(dark_floor(true), 0);
 }
 
 struct Stop : Progress {

@@ -16,7 +16,8 @@ PixelStatistics pixel_statistics(const Evidence& e) {
     double pixel_excess = 0;
     for (std::size_t i = 3 * p; i < 3 * p + 3; ++i) {
       const double d = e.difference(i), v = e.variance[i];
-      if (!(v > 0)) continue;  // black in both
+      // What is black in both measures nothing, whatever error it claims.
+      if (!(v > 0) || (e.ours[i] == 0 && e.reference[i] == 0)) continue;
       chi2 += d * d / v;
       squares += d * d;
       noise += v;

@@ -149,6 +149,9 @@ Result<eval::Emitter> Stage::emitter(const Scene& scene, const Light& light) {
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       const auto corner = [&](std::size_t k) { return vec_cast<double>(mesh.positions[mesh.indices[i + k]]); };
       parts.triangles.push_back({corner(0), corner(1), corner(2)});
+      if (!light.emission.texture || mesh.uvs.empty()) continue;
+      const auto uv = [&](std::size_t k) { return Vec2d{mesh.uvs[mesh.indices[i + k]].x, mesh.uvs[mesh.indices[i + k]].y}; };
+      parts.uvs.push_back({uv(0), uv(1), uv(2)});
     }
   }
   const auto* environment = std::get_if<EnvironmentShape>(&light.shape);
