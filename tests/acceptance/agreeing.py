@@ -16,10 +16,10 @@ def add_options(parser, spp=4096):
     parser.add_argument("--most", type=int, default=65536, help="samples per pixel at which an undecided comparison counts as failed")
 
 
-def validate(arguments, asset, samples, folder, max_difference="0.2%"):
+def validate(arguments, asset, samples, folder, max_difference="0.2%", more=()):
     """The result of `etendue validate`, or None and what went wrong. The report is left in folder/out."""
     command = [arguments.etendue, "validate", str(asset), "--json", "--quiet", "--max-diff", max_difference, "--size", arguments.size, "--spp",
-               str(samples), "--seeds", "16", "--out", str(pathlib.Path(folder) / "out"), "--no-cache"]
+               str(samples), "--seeds", "16", "--out", str(pathlib.Path(folder) / "out"), "--no-cache", *more]
     run = subprocess.run(command, capture_output=True, text=True)
     try:
         document = json.loads(run.stdout)

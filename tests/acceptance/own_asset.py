@@ -117,7 +117,7 @@ def write(folder):
         (folder / (name + ".png")).write_bytes(png(64, 64, pixel))
     builder = Builder()
     builder.mesh("arch", arch(), 0)
-    builder.mesh("box", box(-0.15, 0.001, -0.2, 0.25), 1)
+    builder.mesh("box", box(0.1, 0.001, 0.5, 0.2), 1)
     builder.mesh("panel", panel(-0.9, 0.1, -0.7, 0.7, 0.5), 2)
     (folder / "asset.bin").write_bytes(builder.data)
     pieces = {"baseColorFactor": [0.9, 0.8, 1, 1], "baseColorTexture": transformed(0, [0.1, 0.2], [1.5, 0.75], 0.4),
