@@ -140,7 +140,14 @@ Result<Validation> validate_scene(Session& session, const Options& options, Scen
   export_options.camera = *camera;
   export_options.lit = *lit;
   export_options.samples = options.samples;
-  PictureRequest request{scene, export_options, {}, folder, cache_folder(options)};
+  Validation validation;
+  const auto exported = write_mitsuba_light_by_light(scene, folder / "scene.xml", export_options);
+  if (!exported) return exported.error();
+  session.diagnostics.append(exported->all.diagnostics);
+  validation.losses = exported->all.losses;
+
+  PictureRequest request{size->width, size->height, {}, {}, cache_folder(options)};
+  for (std::size_t i = 0; i < lit->size(); ++i) request.lights.push_back({scene.lights[(*lit)[i]].name, exported->single[i]});
   std::uint32_t samples = options.samples;
   if (options.seconds > 0) {
     const auto affordable = samples_in(*mitsuba, request, options.seconds);
@@ -148,12 +155,6 @@ Result<Validation> validate_scene(Session& session, const Options& options, Scen
     samples = *affordable;
   }
   request.split = split_samples(samples, options.seeds, lit->size());
-
-  Validation validation;
-  const auto exported = make_mitsuba_exporter()->write(scene, folder / "scene.xml", export_options);
-  if (!exported) return exported.error();
-  session.diagnostics.append(exported->diagnostics);
-  validation.losses = exported->losses;
 
   Bar bar(session);
   RenderOptions render_options;
