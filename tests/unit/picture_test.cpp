@@ -5,12 +5,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 
 namespace etendue {
 namespace {
 
-std::filesystem::path temporary(const std::string& name) { return std::filesystem::path(testing::TempDir()) / name; }
+std::filesystem::path temporary(const std::string& name) { return std::filesystem::temp_directory_path() / name; }
 
 Picture two_by_three() {
   Picture p;
@@ -68,6 +69,56 @@ TEST(Exr, RefusesATruncatedFile) {
   ASSERT_TRUE(write_exr(two_by_three(), file).ok());
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 20);
   EXPECT_FALSE(read_exr(file).ok());
+}
+
+// The data window of a small file, widened to 2^13 x 2^13: nothing of that length can hold as many pixels.
+TEST(Exr, RefusesMorePixelsThanTheFileCanHold) {
+  const auto file = temporary("widened.exr");
+  ASSERT_TRUE(write_exr(two_by_three(), file).ok());
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  in.close();
+  const std::string key("dataWindow\0box2i\0\x10\0\0\0", 21);
+  const std::size_t window = bytes.find(key);
+  ASSERT_NE(window, std::string::npos);
+  const std::string far_corner("\xff\x1f\0\0\xff\x1f\0\0", 8);
+  bytes.replace(window + key.size() + 8, 8, far_corner);
+  std::ofstream(file, std::ios::binary) << bytes;
+  const Result<Picture> read = read_exr(file);
+  ASSERT_FALSE(read.ok());
+  EXPECT_EQ(read.error().code, "PICTURE_UNSUITABLE");
+  EXPECT_NE(read.error().text.find("8192 x 8192 pixels"), std::string::npos) << read.error().text;
+}
+
+TEST(Exr, RefusesMorePixelsThanAsked) {
+  const auto file = temporary("six.exr");
+  ASSERT_TRUE(write_exr(two_by_three(), file).ok());
+  EXPECT_TRUE(read_exr(file, 6).ok());
+  EXPECT_EQ(read_exr(file, 5).error().code, "PICTURE_UNSUITABLE");
+}
+
+// OpenEXR reads a box's sixteen bytes whatever length stands before them; what follows would be read otherwise than it was checked.
+TEST(Exr, RefusesAnAttributeOfAnotherLengthThanItsType) {
+  const auto file = temporary("length.exr");
+  ASSERT_TRUE(write_exr(two_by_three(), file).ok());
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  in.close();
+  const std::size_t length = bytes.find(std::string("dataWindow\0box2i\0", 17)) + 17;
+  bytes[length] = 8;
+  std::ofstream(file, std::ios::binary) << bytes;
+  EXPECT_NE(read_exr(file).error().text.find("box2i is 8 bytes"), std::string::npos);
+}
+
+// Deflate's best case must not be refused: one value throughout.
+TEST(Exr, ReadsAPictureThatCompressesWell) {
+  Picture flat;
+  flat.width = flat.height = 2048;
+  flat.add("", 3);
+  const auto file = temporary("flat.exr");
+  ASSERT_TRUE(write_exr(flat, file).ok());
+  EXPECT_LT(std::filesystem::file_size(file), 2048u * 2048 * 12 / 200);
+  EXPECT_TRUE(read_exr(file).ok());
 }
 
 TEST(Exr, WritesNothingWhenThePictureIsInconsistent) {

@@ -44,8 +44,9 @@ struct Picture {
 std::string layer_safe(std::string_view name);
 
 Status write_exr(const Picture& picture, const std::filesystem::path& file);
-// Any OpenEXR file with R, G, B (or Y) channels; half becomes float. Errors: FILE_UNREADABLE, PICTURE_UNSUITABLE.
-Result<Picture> read_exr(const std::filesystem::path& file);
+// Any OpenEXR file with R, G, B (or Y) channels; half becomes float. A file that declares more than `max_pixels`, or more than its length
+// can stand for, is refused before memory is taken for it. Errors: FILE_UNREADABLE, FILE_TOO_LARGE, PICTURE_UNSUITABLE.
+Result<Picture> read_exr(const std::filesystem::path& file, std::uint64_t max_pixels = std::uint64_t{1} << 27);
 
 // A decoded texture: linear values (sRGB decoded if the encoding says so), 4 channels, alpha 1 where the file has none.
 struct DecodedImage {

@@ -1,6 +1,7 @@
 #include "etendue/io.h"
 #include "etendue/picture.h"
 #include "exr_channels.h"
+#include "exr_header.h"
 
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
@@ -20,8 +21,6 @@ namespace etendue {
 namespace {
 
 constexpr std::uint64_t max_file_bytes = std::uint64_t{1} << 33;
-constexpr std::uint64_t max_pixels = std::uint64_t{1} << 27;
-constexpr std::uint64_t max_values = std::uint64_t{1} << 31;  // pixels x channels
 
 class MemoryStream : public Imf::IStream {
  public:
@@ -99,16 +98,10 @@ Result<Picture> read_pixels(Imf::InputFile& input, const std::filesystem::path& 
   const Imath::Box2i window = header.dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-  if (width < 1 || height < 1 || width > 65536 || height > 65536 || static_cast<std::uint64_t>(width * height) > max_pixels) {
-    return unsuitable(file, "expected at most 2^27 pixels, found " + std::to_string(width) + " x " + std::to_string(height));
-  }
   Picture picture;
   picture.width = static_cast<std::uint32_t>(width);
   picture.height = static_cast<std::uint32_t>(height);
   picture.layers = layers_of(header.channels());
-  std::uint64_t values = 0;
-  for (const Layer& layer : picture.layers) values += static_cast<std::uint64_t>(width * height * layer.channels);
-  if (values > max_values) return unsuitable(file, "expected at most 2^31 values in all channels, found " + std::to_string(values));
   Imf::FrameBuffer buffer;
   for (Layer& layer : picture.layers) {
     layer.pixels.resize(static_cast<std::size_t>(width * height * layer.channels));
@@ -130,9 +123,11 @@ Result<Picture> read_pixels(Imf::InputFile& input, const std::filesystem::path& 
 
 }  // namespace
 
-Result<Picture> read_exr(const std::filesystem::path& file) {
+Result<Picture> read_exr(const std::filesystem::path& file, std::uint64_t max_pixels) {
   const Result<std::vector<std::byte>> bytes = read_file(file, max_file_bytes);
   if (!bytes) return bytes.error();
+  const Status header = check_exr_header(*bytes, max_pixels, file);
+  if (!header) return header.error();
   try {
     MemoryStream stream(*bytes);
     Imf::InputFile input(stream);
