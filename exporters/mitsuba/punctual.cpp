@@ -19,8 +19,8 @@ double spot_falloff(const SpotShape& spot, double cosine) {
   return ramp * ramp;
 }
 
-// Texels along a side so that the ramp is at least 128 of them wide: between texel centres the bilinear form is off by up to (n/128)^-2 2e-5
-// of the axis' value, and at the ramp's inner end, where the slope jumps by 2 / width, one texel ring by up to .2 %.
+// Texels along a side so that the ramp is at least 128 of them wide: between texel centres the bilinear form is off by up to (n/128)^-2
+// 2e-5 of the axis' value, and at the ramp's inner end, where the slope jumps by 2 / width, one texel ring by up to .2 %.
 std::uint32_t spot_texels(const SpotShape& spot) {
   const double ramp = 1 - std::tan(spot.inner_rad) / std::tan(spot.outer_rad);
   const double needed = 2 * 128 / std::max(ramp, 1e-9);

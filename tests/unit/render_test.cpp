@@ -286,7 +286,7 @@ TEST(Render, UniformEnvironment) {
 
 // One pixel over a floor of black and white halves: the mean of the texture.
 TEST(Render, TexturesAreIntegratedOverThePixel) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "halves.ppm";
+  const auto file = std::filesystem::temp_directory_path() / "halves.ppm";
   std::ofstream(file, std::ios::binary) << "P6\n2 1\n255\n" << std::string("\0\0\0\xff\xff\xff", 6);
   Scene scene = floor_scene();
   scene.images.push_back({file.string(), nullptr, "", "halves"});

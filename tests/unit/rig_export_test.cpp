@@ -29,7 +29,7 @@ std::string text_of(const fs::path& file) {
 
 class RigExport : public testing::Test {
  protected:
-  RigExport() : folder_(fs::path(testing::TempDir()) / fmt::format("etendue_rig_{:08x}", std::random_device()())) {
+  RigExport() : folder_(fs::temp_directory_path() / fmt::format("etendue_rig_{:08x}", std::random_device()())) {
     fs::create_directories(folder_ / "textures");
   }
   ~RigExport() override { fs::remove_all(folder_); }

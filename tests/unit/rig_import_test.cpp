@@ -488,7 +488,7 @@ TEST(RigImport, ReadsTheDocumentation) {
 // A folder of its own for each test, removed afterwards.
 class RigImportFiles : public testing::Test {
  protected:
-  RigImportFiles() : folder_(std::filesystem::path(testing::TempDir()) / fmt::format("etendue_rig_{:08x}", std::random_device()())) {
+  RigImportFiles() : folder_(std::filesystem::temp_directory_path() / fmt::format("etendue_rig_{:08x}", std::random_device()())) {
     std::filesystem::create_directories(folder_ / "rig" / "sub");
   }
   ~RigImportFiles() override { std::filesystem::remove_all(folder_); }
