@@ -82,6 +82,13 @@ Result<std::string> AssetFolder::add_picture(std::uint32_t width, std::uint32_t 
   return reference;
 }
 
+Result<std::string> AssetFolder::once(const std::string& recipe, const std::function<Result<std::string>()>& make) {
+  if (const auto known = made_.find(recipe); known != made_.end()) return known->second;
+  Result<std::string> reference = make();
+  if (reference) made_.emplace(recipe, *reference);
+  return reference;
+}
+
 Status AssetFolder::commit() {
   if (Status ours = check_replaceable(folder_); !ours) return ours;
   const std::filesystem::path older = folder_.string() + ".old";

@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +31,10 @@ class AssetFolder {
   // `rgb`: three numbers a pixel, row 0 at the top.
   Result<std::string> add_picture(std::uint32_t width, std::uint32_t height, std::vector<float> rgb);
 
+  // The path that `make` gave for this recipe before, else what it gives now: what costs time to make is made once for all scene files
+  // that share the folder.
+  Result<std::string> once(const std::string& recipe, const std::function<Result<std::string>()>& make);
+
   // Errors: FILE_UNWRITABLE; FOLDER_NOT_OURS where a folder of that name holds files that this class does not write.
   Status commit();
   // The files in place after commit().
@@ -39,6 +45,7 @@ class AssetFolder {
 
   std::filesystem::path folder_, staging_;
   std::vector<std::string> names_;
+  std::map<std::string, std::string> made_;  // by recipe
 };
 
 }  // namespace etendue::mitsuba

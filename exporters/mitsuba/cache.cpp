@@ -12,28 +12,33 @@ namespace {
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 32;
 
 // Replaces the names of files below `node` by digests of their content.
-Status name_by_content(pugi::xml_node node, const std::filesystem::path& folder) {
+Status name_by_content(pugi::xml_node node, const std::filesystem::path& folder, Digests& known) {
   for (pugi::xml_node child : node.children()) {
     if (std::string_view(child.name()) == "string" && std::string_view(child.attribute("name").value()) == "filename") {
-      Result<std::vector<std::byte>> bytes = read_file(folder / child.attribute("value").value(), largest_file);
-      if (!bytes) return bytes.error();
-      child.attribute("value") = digest_of(*bytes).c_str();
+      const std::filesystem::path file = folder / child.attribute("value").value();
+      auto digest = known.find(file);
+      if (digest == known.end()) {
+        Result<std::vector<std::byte>> bytes = read_file(file, largest_file);
+        if (!bytes) return bytes.error();
+        digest = known.emplace(file, digest_of(*bytes)).first;
+      }
+      child.attribute("value") = digest->second.c_str();
     }
-    if (Status s = name_by_content(child, folder); !s) return s;
+    if (Status s = name_by_content(child, folder, known); !s) return s;
   }
   return Done{};
 }
 
 }  // namespace
 
-Result<std::string> content_of(const std::filesystem::path& scene) {
+Result<std::string> content_of(const std::filesystem::path& scene, Digests& known) {
   Result<std::vector<std::byte>> bytes = read_file(scene, largest_file);
   if (!bytes) return bytes.error();
   pugi::xml_document document;
   if (const pugi::xml_parse_result parsed = document.load_buffer(bytes->data(), bytes->size()); !parsed) {
     return Error{"MITSUBA_FAILED", std::string("expected an XML file: ") + parsed.description(), {scene.string(), 0, 0, {}}, {}, {}};
   }
-  if (Status s = name_by_content(document, scene.parent_path()); !s) return s.error();
+  if (Status s = name_by_content(document, scene.parent_path(), known); !s) return s.error();
   std::ostringstream text;
   document.save(text);
   return digest_of(text.str());

@@ -5,14 +5,16 @@
 #include "run.h"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 
 namespace etendue::mitsuba {
 
 // Digest of a scene file with every file name in it replaced by the digest of that file: where the files lie does not matter. Errors:
-// FILE_UNREADABLE, MITSUBA_FAILED where the scene file is no XML.
-Result<std::string> content_of(const std::filesystem::path& scene);
+// FILE_UNREADABLE, MITSUBA_FAILED where the scene file is no XML. `known`: digests of files by path, read and added to.
+using Digests = std::map<std::filesystem::path, std::string>;
+Result<std::string> content_of(const std::filesystem::path& scene, Digests& known);
 
 // Of content, samples, seeds, variant and version.
 std::string key_of(const Mitsuba& mitsuba, const MitsubaJob& job, const std::string& content);

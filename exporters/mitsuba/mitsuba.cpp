@@ -92,6 +92,67 @@ Status write_scene(Writer& writer, const Camera& camera) {
   return write_lights(writer);
 }
 
+Result<Camera> camera_of(const Scene& scene, const Bounds& bounds, const ExportOptions& options, Diagnostics& diagnostics) {
+  if (options.camera < scene.cameras.size()) return scene.cameras[options.camera];
+  if (scene.cameras.empty() && options.camera == 0) {
+    diagnostics.note("CAMERA_ADDED", "the scene has no camera: one that sees all of it was added");
+    return framing_camera(bounds, static_cast<double>(options.width) / options.height);
+  }
+  return Error{"CAMERA_MISSING",
+               "expected a camera with index below " + std::to_string(scene.cameras.size()) + ", found " + std::to_string(options.camera),
+               {},
+               {},
+               {}};
+}
+
+// Scene files that share one folder of assets.
+class SceneFiles {
+ public:
+  // Errors: SCENE_INVALID, CAMERA_MISSING.
+  static Result<std::unique_ptr<SceneFiles>> begin(const Scene& scene, const std::filesystem::path& file, const ExportOptions& options,
+                                                   Diagnostics& diagnostics) {
+    if (const Diagnostics found = validate(scene); found.has_errors()) return invalid(found);
+    const Bounds bounds = bounds_of(scene);
+    Result<Camera> camera = camera_of(scene, bounds, options, diagnostics);
+    if (!camera) return camera.error();
+    return std::unique_ptr<SceneFiles>(new SceneFiles(scene, file, bounds, std::move(*camera)));
+  }
+
+  Status add(const std::filesystem::path& file, const ExportOptions& options, LossReport& losses) {
+    pugi::xml_document document;
+    pugi::xml_node root = document.append_child("scene");
+    root.append_attribute("version") = "3.0.0";
+    Writer writer{scene_, options, assets_, root, losses, bounds_, extent_of(bounds_, camera_)};
+    if (Status s = write_scene(writer, camera_); !s) return s.error();
+    std::ostringstream text;
+    document.save(text, "  ");
+    texts_.emplace_back(file, text.str());
+    return Done{};
+  }
+
+  // The files that were written, the scene files first.
+  Result<std::vector<std::filesystem::path>> commit() {
+    if (Status s = assets_.commit(); !s) return s.error();
+    std::vector<std::filesystem::path> files;
+    for (const auto& [file, text] : texts_) {
+      if (Status s = write_file(file, std::as_bytes(std::span(text))); !s) return s.error();
+      files.push_back(file);
+    }
+    for (std::filesystem::path& asset : assets_.files()) files.push_back(std::move(asset));
+    return files;
+  }
+
+ private:
+  SceneFiles(const Scene& scene, const std::filesystem::path& file, const Bounds& bounds, Camera camera)
+      : scene_(scene), bounds_(bounds), camera_(std::move(camera)), assets_(file) {}
+
+  const Scene& scene_;
+  Bounds bounds_;
+  Camera camera_;
+  AssetFolder assets_;
+  std::vector<std::pair<std::filesystem::path, std::string>> texts_;
+};
+
 class MitsubaExporter : public Exporter {
  public:
   FormatInfo describe() const override {
@@ -99,38 +160,13 @@ class MitsubaExporter : public Exporter {
   }
 
   Result<Exported> write(const Scene& scene, const std::filesystem::path& file, const ExportOptions& options) const override {
-    if (const Diagnostics found = validate(scene); found.has_errors()) return invalid(found);
     Exported exported;
-    const Bounds bounds = bounds_of(scene);
-    Camera camera;
-    if (options.camera < scene.cameras.size()) {
-      camera = scene.cameras[options.camera];
-    } else if (scene.cameras.empty() && options.camera == 0) {
-      camera = framing_camera(bounds, static_cast<double>(options.width) / options.height);
-      exported.diagnostics.note("CAMERA_ADDED", "the scene has no camera: one that sees all of it was added");
-    } else {
-      return Error{
-          "CAMERA_MISSING",
-          "expected a camera with index below " + std::to_string(scene.cameras.size()) + ", found " + std::to_string(options.camera),
-          {},
-          {},
-          {}};
-    }
-
-    AssetFolder assets(file);
-    pugi::xml_document document;
-    pugi::xml_node root = document.append_child("scene");
-    root.append_attribute("version") = "3.0.0";
-    Writer writer{scene, options, assets, root, exported.losses, bounds, extent_of(bounds, camera)};
-    if (Status s = write_scene(writer, camera); !s) return s.error();
-
-    std::ostringstream text;
-    document.save(text, "  ");
-    const std::string xml = text.str();
-    if (Status s = assets.commit(); !s) return s.error();
-    if (Status s = write_file(file, std::as_bytes(std::span(xml))); !s) return s.error();
-    exported.files = assets.files();
-    exported.files.insert(exported.files.begin(), file);
+    auto files = SceneFiles::begin(scene, file, options, exported.diagnostics);
+    if (!files) return files.error();
+    if (Status s = (*files)->add(file, options, exported.losses); !s) return s.error();
+    auto written = (*files)->commit();
+    if (!written) return written.error();
+    exported.files = std::move(*written);
     return exported;
   }
 };
@@ -139,5 +175,27 @@ class MitsubaExporter : public Exporter {
 }  // namespace mitsuba
 
 std::unique_ptr<Exporter> make_mitsuba_exporter() { return std::make_unique<mitsuba::MitsubaExporter>(); }
+
+Result<MitsubaLightByLight> write_mitsuba_light_by_light(const Scene& scene, const std::filesystem::path& file,
+                                                         const ExportOptions& options) {
+  MitsubaLightByLight result;
+  auto files = mitsuba::SceneFiles::begin(scene, file, options, result.all.diagnostics);
+  if (!files) return files.error();
+  if (Status s = (*files)->add(file, options, result.all.losses); !s) return s.error();
+  std::vector<std::uint32_t> lit = options.lit;
+  for (std::uint32_t i = 0; options.lit.empty() && i < scene.lights.size(); ++i) lit.push_back(i);
+  for (const std::uint32_t light : lit) {
+    ExportOptions one = options;
+    one.lit = {light};
+    LossReport losses_as_above;
+    const std::filesystem::path single = file.parent_path() / (file.stem().string() + "_light_" + std::to_string(light) + ".xml");
+    if (Status s = (*files)->add(single, one, losses_as_above); !s) return s.error();
+    result.single.push_back(single);
+  }
+  auto written = (*files)->commit();
+  if (!written) return written.error();
+  result.all.files = std::move(*written);
+  return result;
+}
 
 }  // namespace etendue

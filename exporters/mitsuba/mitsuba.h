@@ -1,10 +1,23 @@
 // Writes a scene as Mitsuba 3 XML with its PLY and EXR files in a folder NAME_files beside it. Mapping and losses: README.md beside this
 // file.
 #pragma once
+#include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "etendue/io.h"
 
 namespace etendue {
+
 std::unique_ptr<Exporter> make_mitsuba_exporter();
-}
+
+// The scene as make_mitsuba_exporter() writes it, and beside it NAME_light_I.xml for each light I of options.lit (all, if it is empty), in
+// which that light alone emits. They name files of the same folder, and each texture and mesh is made once.
+struct MitsubaLightByLight {
+  Exported all;
+  std::vector<std::filesystem::path> single;  // in the order of the lights
+};
+Result<MitsubaLightByLight> write_mitsuba_light_by_light(const Scene& scene, const std::filesystem::path& file,
+                                                         const ExportOptions& options);
+
+}  // namespace etendue

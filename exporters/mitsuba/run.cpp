@@ -168,9 +168,10 @@ Result<std::vector<Picture>> run_mitsuba(const Mitsuba& mitsuba, const std::vect
   std::vector<Picture> pictures(jobs.size());
   std::vector<KeyedJob> missing;
   const PictureCache cache(cache_folder);
+  mitsuba::Digests digests;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     if (Status s = check(jobs[i]); !s) return s.error();
-    Result<std::string> content = mitsuba::content_of(jobs[i].scene);
+    Result<std::string> content = mitsuba::content_of(jobs[i].scene, digests);
     if (!content) return content.error();
     KeyedJob keyed{&jobs[i], *content, mitsuba::key_of(mitsuba, jobs[i], *content)};
     if (std::optional<Picture> known = cache.find(keyed.key)) {

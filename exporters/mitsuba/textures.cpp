@@ -66,7 +66,12 @@ std::string extension_of(const std::vector<std::byte>& bytes) {
 
 using Bake = std::function<Rgb(const float* rgba)>;
 
-Result<std::string> bake(Writer& writer, const Texture& texture, Encoding encoding, const Bake& value) {
+// Image and encoding, and what `purpose` says of the bake.
+std::string recipe_of(const Texture& texture, Encoding encoding, const std::string& purpose) {
+  return "image " + std::to_string(texture.image) + (encoding == Encoding::srgb ? " srgb " : " linear ") + purpose;
+}
+
+Result<std::string> bake_now(Writer& writer, const Texture& texture, Encoding encoding, const Bake& value) {
   Result<DecodedImage> image = decode(writer.scene.images[texture.image], encoding);
   if (!image) return image.error();
   std::vector<float> rgb;
@@ -78,53 +83,12 @@ Result<std::string> bake(Writer& writer, const Texture& texture, Encoding encodi
   return writer.assets.add_picture(image->width, image->height, std::move(rgb));
 }
 
-}  // namespace
-
-Status add_colour_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, const Rgb& factor,
-                          const std::string& owner) {
-  if (factor == Rgb{1, 1, 1} && texture.encoding == Encoding::srgb) {
-    Result<std::vector<std::byte>> bytes = bytes_of(writer.scene.images[texture.image]);
-    if (!bytes) return bytes.error();
-    if (const std::string extension = extension_of(*bytes); !extension.empty()) {
-      Result<std::string> file = writer.assets.add_file("image", extension, *bytes);
-      if (!file) return file.error();
-      add_bitmap(writer, parent, name, texture, *file, owner);
-      return Done{};
-    }
-  }
-  Result<std::string> file = bake(writer, texture, texture.encoding, [&](const float* p) {
-    return Rgb{p[0] * factor.x, p[1] * factor.y, p[2] * factor.z};
-  });
-  if (!file) return file.error();
-  add_bitmap(writer, parent, name, texture, *file, owner);
-  return Done{};
-}
-
-Status add_grey_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, int channel, double factor,
-                        const std::string& owner) {
-  Result<std::string> file = bake(writer, texture, Encoding::linear, [&](const float* p) {
-    const double value = p[channel] * factor;
-    return Rgb{value, value, value};
-  });
-  if (!file) return file.error();
-  add_boolean(add_bitmap(writer, parent, name, texture, *file, owner), "raw", true);
-  return Done{};
-}
-
-// Mitsuba's normal is normalise(2 t - 1). t' = (1 + s (2 t - 1)) / 2 scales a component by s, and, being linear, also between texels.
-Status add_normal_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, double scale,
-                          const std::string& owner) {
-  Result<std::string> file = bake(writer, texture, Encoding::linear, [&](const float* p) {
-    return Rgb{(1 + scale * (2.0 * p[0] - 1)) / 2, (1 + scale * (2.0 * p[1] - 1)) / 2, p[2]};
-  });
-  if (!file) return file.error();
-  add_boolean(add_bitmap(writer, parent, name, texture, *file, owner), "raw", true);
-  return Done{};
+Result<std::string> bake(Writer& writer, const Texture& texture, Encoding encoding, const std::string& purpose, const Bake& value) {
+  return writer.assets.once(recipe_of(texture, encoding, purpose), [&] { return bake_now(writer, texture, encoding, value); });
 }
 
 // The cut runs through the texels where the interpolated alpha crosses the cutoff: interpolated on a grid of 4 x 4 a texel, then cut.
-Status add_cutout_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, double factor, double cutoff,
-                          const std::string& owner) {
+Result<std::string> cut_out(Writer& writer, const Texture& texture, double factor, double cutoff) {
   Result<DecodedImage> image = decode(writer.scene.images[texture.image], Encoding::linear);
   if (!image) return image.error();
   const std::uint64_t texels = std::uint64_t{image->width} * image->height;
@@ -141,14 +105,67 @@ Status add_cutout_texture(Writer& writer, pugi::xml_node parent, const char* nam
       rgb.insert(rgb.end(), 3, alpha >= cutoff ? 1.0f : 0.0f);
     }
   }
-  Result<std::string> file = writer.assets.add_picture(width, height, std::move(rgb));
+  return writer.assets.add_picture(width, height, std::move(rgb));
+}
+
+}  // namespace
+
+Status add_colour_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, const Rgb& factor,
+                          const std::string& owner) {
+  if (factor == Rgb{1, 1, 1} && texture.encoding == Encoding::srgb) {
+    Result<std::vector<std::byte>> bytes = bytes_of(writer.scene.images[texture.image]);
+    if (!bytes) return bytes.error();
+    if (const std::string extension = extension_of(*bytes); !extension.empty()) {
+      Result<std::string> file = writer.assets.add_file("image", extension, *bytes);
+      if (!file) return file.error();
+      add_bitmap(writer, parent, name, texture, *file, owner);
+      return Done{};
+    }
+  }
+  Result<std::string> file = bake(writer, texture, texture.encoding,
+                                  "times " + text_of(factor.x) + ' ' + text_of(factor.y) + ' ' + text_of(factor.z), [&](const float* p) {
+                                    return Rgb{p[0] * factor.x, p[1] * factor.y, p[2] * factor.z};
+                                  });
+  if (!file) return file.error();
+  add_bitmap(writer, parent, name, texture, *file, owner);
+  return Done{};
+}
+
+Status add_grey_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, int channel, double factor,
+                        const std::string& owner) {
+  const std::string purpose = "channel " + std::to_string(channel) + " times " + text_of(factor);
+  Result<std::string> file = bake(writer, texture, Encoding::linear, purpose, [&](const float* p) {
+    const double value = p[channel] * factor;
+    return Rgb{value, value, value};
+  });
+  if (!file) return file.error();
+  add_boolean(add_bitmap(writer, parent, name, texture, *file, owner), "raw", true);
+  return Done{};
+}
+
+// Mitsuba's normal is normalise(2 t - 1). t' = (1 + s (2 t - 1)) / 2 scales a component by s, and, being linear, also between texels.
+Status add_normal_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, double scale,
+                          const std::string& owner) {
+  Result<std::string> file = bake(writer, texture, Encoding::linear, "slopes times " + text_of(scale), [&](const float* p) {
+    return Rgb{(1 + scale * (2.0 * p[0] - 1)) / 2, (1 + scale * (2.0 * p[1] - 1)) / 2, p[2]};
+  });
+  if (!file) return file.error();
+  add_boolean(add_bitmap(writer, parent, name, texture, *file, owner), "raw", true);
+  return Done{};
+}
+
+Status add_cutout_texture(Writer& writer, pugi::xml_node parent, const char* name, const Texture& texture, double factor, double cutoff,
+                          const std::string& owner) {
+  const std::string purpose = "alpha times " + text_of(factor) + " cut at " + text_of(cutoff) +
+                              (texture.nearest ? " nearest " : " linear ") + name_of(texture.wrap_u) + ' ' + name_of(texture.wrap_v);
+  Result<std::string> file =
+      writer.assets.once(recipe_of(texture, Encoding::linear, purpose), [&] { return cut_out(writer, texture, factor, cutoff); });
   if (!file) return file.error();
   Texture cut = texture;
   cut.nearest = true;
   add_boolean(add_bitmap(writer, parent, name, cut, *file, owner), "raw", true);
-  if (!texture.nearest) {
-    writer.losses.add(owner + ": edges of the cut-out", std::string("on a grid of ") + (fine == 4 ? "a quarter texel" : "one texel"));
-  }
+  if (!texture.nearest)
+    writer.losses.add(owner + ": edges of the cut-out", "on a grid of a quarter texel (one texel of pictures over 4 megapixels)");
   return Done{};
 }
 

@@ -13,6 +13,8 @@ Json to_json(const Comparison& comparison) {
                {"rms_rel", comparison.rms_rel},
                {"noise_rms_rel", comparison.noise_rms_rel},
                {"chi2_per_pixel", comparison.chi2_per_pixel},
+               {"chi2_expected", comparison.chi2_expected},
+               {"chi2_pixels", comparison.chi2_pixels},
                {"bias_z", comparison.bias_z},
                {"pixel_excess_rel", comparison.pixel_excess_rel},
                {"pixel_excess_z", comparison.pixel_excess_z},

@@ -6,20 +6,13 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "exporters/mitsuba/mitsuba.h"
-
 namespace etendue::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-Result<MitsubaJob> export_light(const PictureRequest& request, std::uint32_t light) {
-  ExportOptions options = request.options;
-  options.lit = {light};
-  const fs::path file = request.folder / fmt::format("light_{}.xml", light);
-  const auto exported = make_mitsuba_exporter()->write(request.scene, file, options);
-  if (!exported) return exported.error();
-  return MitsubaJob{file, request.scene.lights[light].name, request.split.samples_per_seed, request.split.seeds, 0};
+MitsubaJob job_for(const LightFile& light, const Split& split) {
+  return {light.scene, light.light, split.samples_per_seed, split.seeds, 0};
 }
 
 void add_into(Layer& sum, const Layer& part) {
@@ -36,17 +29,13 @@ Split split_samples(std::uint32_t total, std::uint32_t seeds, std::size_t lights
 
 Result<Picture> mitsuba_picture(const Mitsuba& mitsuba, const PictureRequest& request, Progress* progress) {
   std::vector<MitsubaJob> jobs;
-  for (const std::uint32_t light : request.options.lit) {
-    auto job = export_light(request, light);
-    if (!job) return job.error();
-    jobs.push_back(std::move(*job));
-  }
+  for (const LightFile& light : request.lights) jobs.push_back(job_for(light, request.split));
   Result<std::vector<Picture>> pictures = run_mitsuba(mitsuba, jobs, request.cache, progress);
   if (!pictures) return pictures.error();
 
   Picture sum;
-  sum.width = request.options.width;
-  sum.height = request.options.height;
+  sum.width = request.width;
+  sum.height = request.height;
   sum.numbers["etendue:seeds"] = request.split.seeds;
   sum.numbers["etendue:samples"] = static_cast<double>(request.split.per_light()) * static_cast<double>(jobs.size());
   sum.texts["etendue:renderer"] = fmt::format("Mitsuba {} ({})", mitsuba.version, mitsuba.variant);
@@ -66,11 +55,9 @@ Result<Picture> mitsuba_picture(const Mitsuba& mitsuba, const PictureRequest& re
 }
 
 Result<std::uint32_t> samples_in(const Mitsuba& mitsuba, const PictureRequest& request, double seconds) {
-  const auto job = export_light(request, request.options.lit.front());
-  if (!job) return job.error();
   // The first run pays for starting and compiling; the rate is that of the samples which a second one has more.
   const auto timed = [&](std::uint32_t samples) -> Result<double> {
-    MitsubaJob trial = *job;
+    MitsubaJob trial = job_for(request.lights.front(), request.split);
     trial.samples = samples;
     trial.seeds = 5;
     const auto start = std::chrono::steady_clock::now();
@@ -83,8 +70,8 @@ Result<std::uint32_t> samples_in(const Mitsuba& mitsuba, const PictureRequest& r
   const Result<double> more = timed(5);
   if (!more) return more.error();
   const double each = std::max((*more - *few) / 20, 1e-3);  // seconds per sample per pixel
-  const double fixed = *few * static_cast<double>(request.options.lit.size());
-  return static_cast<std::uint32_t>(std::clamp((seconds - fixed) / each, 16.0 * static_cast<double>(request.options.lit.size()), 1e6));
+  const double fixed = *few * static_cast<double>(request.lights.size());
+  return static_cast<std::uint32_t>(std::clamp((seconds - fixed) / each, 16.0 * static_cast<double>(request.lights.size()), 1e6));
 }
 
 Result<Mitsuba> locate_mitsuba(const std::string& hint) {

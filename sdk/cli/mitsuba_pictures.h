@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "exporters/mitsuba/run.h"
@@ -17,11 +18,16 @@ struct Split {
 // At least five seeds of at least one sample; fewer seeds rather than fewer than four samples in each.
 Split split_samples(std::uint32_t total, std::uint32_t seeds, std::size_t lights);
 
+// A scene file in which one light alone emits.
+struct LightFile {
+  std::string light;
+  std::filesystem::path scene;
+};
+
 struct PictureRequest {
-  const Scene& scene;
-  ExportOptions options;  // lit: the lights to render, each by itself, the others black with their shapes kept
+  std::uint32_t width = 0, height = 0;
+  std::vector<LightFile> lights;
   Split split;
-  std::filesystem::path folder;  // for the scenes
   std::optional<std::filesystem::path> cache;
 };
 

@@ -104,6 +104,35 @@ TEST_F(MitsubaExport, EqualFilesAreWrittenOnce) {
   for (const fs::path& file : exported->files) EXPECT_TRUE(fs::exists(file)) << file;
 }
 
+// Each file of one light is what an export of that light alone would be, but for the folder that all of them share.
+TEST_F(MitsubaExport, LightByLightSharesItsFiles) {
+  Scene scene = table();
+  std::ofstream(folder / "red.ppm", std::ios::binary) << "P6\n1 2\n255\n" << std::string("\xff\0\0\x80\0\0", 6);
+  scene.images.push_back({(folder / "red.ppm").string(), nullptr, "", "red"});
+  scene.materials[0].base_colour_texture = Texture{0, Encoding::srgb};
+  ExportOptions options;
+  options.lit = {0, 2};
+  const auto written = write_mitsuba_light_by_light(scene, folder / "scene.xml", options);
+  ASSERT_TRUE(written.ok()) << written.error().text;
+  ASSERT_EQ(written->single.size(), 2u);
+  const auto content = [](const fs::path& file) {
+    std::ifstream in(file);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  for (std::size_t i = 0; i < 2; ++i) {
+    ExportOptions one;
+    one.lit = {options.lit[i]};
+    ASSERT_TRUE(make_mitsuba_exporter()->write(scene, folder / "alone.xml", one).ok());
+    std::string alone = content(folder / "alone.xml");
+    for (std::size_t at = 0; (at = alone.find("alone_files", at)) != std::string::npos;) alone.replace(at, 5, "scene");
+    EXPECT_EQ(content(written->single[i]), alone) << i;
+  }
+  const auto count = std::distance(fs::directory_iterator(folder / "scene_files"), fs::directory_iterator{});
+  EXPECT_EQ(written->all.files.size(), 3u + static_cast<std::size_t>(count));
+  // The picture and the textured table top.
+  EXPECT_EQ(count, 2);
+}
+
 TEST_F(MitsubaExport, ReplacesItsOwnFolderAndNoOther) {
   Scene scene = table();
   scene.lights = {luminous("tube", TubeShape{1, 0.02, Caps::round}, {0, 1, 0})};

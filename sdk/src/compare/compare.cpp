@@ -101,6 +101,8 @@ void list_regions(const std::vector<Judged>& judged, const std::vector<bool>& co
 void whole_picture(const Evidence& e, const Region& all, Comparison& result) {
   const PixelStatistics pixels = pixel_statistics(e);
   result.chi2_per_pixel = pixels.chi2_per_pixel;
+  result.chi2_expected = pixels.chi2_expected;
+  result.chi2_pixels = pixels.chi2_pixels;
   result.rms_rel = pixels.rms_rel;
   result.noise_rms_rel = pixels.noise_rms_rel;
   result.pixel_excess_rel = pixels.excess_rel;

@@ -10,6 +10,10 @@
 
 namespace etendue::compare_detail {
 
+// Mitsuba sums a pixel's samples in float32: relative error 8e-6 at 1024 samples, 2e-5 at 4096 (measured). Without this term a picture that
+// is free of noise (a directional light on a Lambert surface) would have sigma = 0.
+inline constexpr double float_accumulation = 3e-5;
+
 // Interleaved R G B, row 0 at the top.
 struct Evidence {
   std::uint32_t width = 0, height = 0;

@@ -6,7 +6,7 @@
 namespace etendue::compare_detail {
 
 PixelStatistics pixel_statistics(const Evidence& e) {
-  double chi2 = 0, squares = 0, noise = 0, total = 0, count = 0;
+  double chi2 = 0, noisy = 0, squares = 0, noise = 0, total = 0, count = 0;
   // Excess: sum w (D^2 - sigma^2) with weights w that are independent of the pixel's own noise. Both D^2 and sigma^2 are unbiased, so its
   // mean is 0 for noise of any distribution, unlike that of a sum of D^2 / sigma^2. The channels of one pixel share their noise: they are
   // summed first, and the spread of the pixels' sums is the standard error.
@@ -19,6 +19,7 @@ PixelStatistics pixel_statistics(const Evidence& e) {
       // What is black in both measures nothing, whatever error it claims.
       if (!(v > 0) || (e.ours[i] == 0 && e.reference[i] == 0)) continue;
       chi2 += d * d / v;
+      noisy += std::max(0.0, 1 - std::pow(float_accumulation * e.reference[i], 2) / v);
       squares += d * d;
       noise += v;
       total += e.reference[i];
@@ -35,6 +36,8 @@ PixelStatistics pixel_statistics(const Evidence& e) {
   if (count == 0 || !(total > 0)) return result;
   const double mean = total / count, seeds = e.seeds;
   result.chi2_per_pixel = chi2 / count * (seeds - 3) / (seeds - 1);
+  result.chi2_expected = noisy / count;
+  result.chi2_pixels = static_cast<std::uint64_t>(count / 3);
   result.rms_rel = std::sqrt(squares / count) / mean;
   result.noise_rms_rel = std::sqrt(noise / count) / mean;
   if (excess_squares > 0) result.excess_z = excess / std::sqrt(excess_squares);

@@ -4,6 +4,7 @@
 #include "local.h"
 #include "microfacet.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -35,13 +36,16 @@ struct RoundLight {
 // A round light of one luminance that is clear of both horizons by its own half angle or more; nothing for all else.
 std::optional<RoundLight> clear_round_light(const Emitter& emitter, const LocalFrame& frame, const Horizons& horizons);
 
-// The light's half angle against the distance of the lobe's nearest singularity. GGX is 1 / (alpha^2 + m^2)^2 in the slope m of the half
-// vector h, whose poles are sqrt(m_0^2 + alpha^2) away from the slope m_0 at the light's centre. A direction that turns by rho turns h by
-// no more than rho / |v + l| and moves m by 1 / (n.h)^2 of that. Without a lobe (alpha 0) the half angle itself.
+// The light's half angle against the distance of the nearest singularity of a GGX lobe (without one, alpha 0: the half angle itself).
+// Density: 1 / (alpha^2 + m^2)^2 in the slope m of the half vector h, with poles sqrt(m_0^2 + alpha^2) away from the slope m_0 at the
+// light's centre. A direction that turns by rho turns h by no more than rho / |v + l| and moves m by 1 / (n.h)^2 of that.
+// Masking: sqrt(z^2 + alpha^2 (1 - z^2)) in the light's height z, which branches about sqrt(z^2 + alpha^2) away.
 inline double relative_size(const RoundLight& light, const Vec3d& view, double alpha) {
   if (!(alpha > 0)) return light.widest;
-  const HalfAngle h = half_angle(view, light.at(0, 0).direction);
-  return light.widest / (2 * h.v_dot_h * h.cos2 * std::sqrt(h.sin2 / h.cos2 + alpha * alpha));
+  const Vec3d towards = light.at(0, 0).direction;
+  const HalfAngle h = half_angle(view, towards);
+  const double alpha2 = alpha * alpha, to_pole = 2 * h.v_dot_h * h.cos2 * std::sqrt(h.sin2 / h.cos2 + alpha2);
+  return light.widest / std::min(to_pole, std::sqrt(towards.z * towards.z + alpha2));
 }
 
 }  // namespace etendue::eval

@@ -82,8 +82,9 @@ std::optional<LightPainter::Curvature> LightPainter::curvature(std::uint32_t x, 
   }
   const Rgb f_xx = centre_[pixel - 1] + centre_[pixel + 1] - centre_[pixel] * 2.0;
   const Rgb f_yy = centre_[pixel - options_.width] + centre_[pixel + options_.width] - centre_[pixel] * 2.0;
-  const double size = largest(centre_[pixel]);
-  return Curvature{(f_xx + f_yy) / 24.0, size > 0 ? (largest(f_xx) + largest(f_yy)) / size : 0};
+  // Where the centre is dark and a neighbour is not, the light ends nearby: as bent as can be.
+  const double size = largest(centre_[pixel]), bend = largest(f_xx) + largest(f_yy);
+  return Curvature{(f_xx + f_yy) / 24.0, size > 0 ? bend / size : bend > 0 ? 1.0 : 0.0};
 }
 
 }  // namespace etendue::rendering

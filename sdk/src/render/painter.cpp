@@ -266,7 +266,8 @@ void LightPainter::paint_row(std::uint32_t row, RayCounts& counts) {
     const Measured direct = regions != nullptr ? split(x, row, *regions, around.beta, counts) : smooth(x, row, around.beta, centre, counts);
     value_[pixel] = direct.value;
     variance_[pixel] = direct.variance;
-    if (!light_.delta) variance_[pixel] += Rgb{1, 1, 1} * (around.beta * around.beta * tolerance_.absolute * tolerance_.absolute);
+    // Errors of shading come to about a tenth of the tolerance.
+    if (!light_.delta) variance_[pixel] += Rgb{1, 1, 1} * std::pow(0.1 * around.beta * tolerance_.absolute, 2);
     if (light_.delta || (regions == nullptr && (!centre || stage_.thing(centre->thing).paint == nullptr))) continue;
     const Measured shadow = sampled(x, row, around, centre, counts);
     value_[pixel] += shadow.value;
