@@ -87,12 +87,11 @@ Result<std::string> bake(Writer& writer, const Texture& texture, Encoding encodi
   return writer.assets.once(recipe_of(texture, encoding, purpose), [&] { return bake_now(writer, texture, encoding, value); });
 }
 
-// The cut runs through the texels where the interpolated alpha crosses the cutoff: interpolated on a grid of 4 x 4 a texel, then cut.
+// The cut runs through the texels where the interpolated alpha crosses the cutoff: interpolated on a grid, then cut.
 Result<std::string> cut_out(Writer& writer, const Texture& texture, double factor, double cutoff) {
   Result<DecodedImage> image = decode(writer.scene.images[texture.image], Encoding::linear);
   if (!image) return image.error();
-  const std::uint64_t texels = std::uint64_t{image->width} * image->height;
-  const std::uint32_t fine = texture.nearest ? 1 : texels <= (std::uint64_t{1} << 22) ? 4 : 1;
+  const std::uint32_t fine = cut_out_cells(*image, texture);
   const std::uint32_t width = image->width * fine, height = image->height * fine;
   Texture plain = texture;
   plain.uv_transform[0][0] = plain.uv_transform[1][1] = 1;

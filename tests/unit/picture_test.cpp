@@ -233,6 +233,24 @@ TEST(Sample, WrapModes) {
   EXPECT_DOUBLE_EQ(sample(d, t, {65537 + 0.5 / 4, 0}).r, 3);
 }
 
+TEST(Sample, CellsAreQuartersOfATexelWithTheValueOfTheirMiddle) {
+  const DecodedImage d = ramp();
+  Texture t;
+  t.wrap_u = t.wrap_v = Wrap::clamp;
+  ASSERT_EQ(cut_out_cells(d, t), 4u);
+  // Between the centres of columns 1 and 2, red is 1 to 2: the four cells there have their middles at 1/8, 3/8, 5/8, 7/8.
+  for (int cell = 0; cell < 4; ++cell) {
+    for (const double within : {0.05, 0.5, 0.95}) {
+      EXPECT_DOUBLE_EQ(sample_cell(d, t, {(1.5 + (cell + within) / 4) / 4, 0.25}).r, 1 + (2 * cell + 1) / 8.0) << cell << ' ' << within;
+    }
+  }
+  t.uv_transform[0][2] = 0.25;  // one column further
+  EXPECT_DOUBLE_EQ(sample_cell(d, t, {1.55 / 4, 0.25}).r, 2.125);
+  t.nearest = true;
+  EXPECT_EQ(cut_out_cells(d, t), 1u);
+  EXPECT_EQ(sample_cell(d, t, {1.55 / 4, 0.25}).r, 2);
+}
+
 TEST(Sample, NearestTransformAndNonsense) {
   const DecodedImage d = ramp();
   Texture t;

@@ -61,4 +61,9 @@ struct Rgba {
 };
 Rgba sample(const DecodedImage& image, const Texture& texture, Vec2d uv);
 
+// The grid that the Mitsuba exporter cuts holes on: cells along a texel's side. 1 where the lookup is nearest or the picture is large.
+std::uint32_t cut_out_cells(const DecodedImage& image, const Texture& texture);
+// sample() at the middle of uv's cell.
+Rgba sample_cell(const DecodedImage& image, const Texture& texture, Vec2d uv);
+
 }  // namespace etendue

@@ -98,6 +98,7 @@ Result<const Paint*> Stage::paint(const Scene& scene, std::uint32_t material, bo
   if (paint.material.normal_map) {
     if (Status done = want(paint.material.normal_map->texture, paint.normal); !done) return done.error();
   }
+  paint.coarse_holes = mitsuba_model;
   holes_ = holes_ || paint.has_holes();
   paints_.push_back({material, std::move(paint)});
   return &paints_.back().paint;

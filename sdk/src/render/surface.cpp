@@ -107,7 +107,11 @@ SurfacePoint surface_point(const Thing& thing, const Ray& ray, const Hit& hit) {
 
 bool is_hole(const Paint& paint, Vec2d uv) {
   if (!paint.has_holes()) return false;
-  const double alpha = paint.material.base_alpha * channel(paint.base_colour, paint.material.base_colour_texture, uv, &Rgba::a);
+  double alpha = paint.material.base_alpha;
+  if (paint.base_colour != nullptr) {
+    const Texture& texture = *paint.material.base_colour_texture;
+    alpha *= (paint.coarse_holes ? sample_cell(*paint.base_colour, texture, uv) : sample(*paint.base_colour, texture, uv)).a;
+  }
   return alpha < *paint.material.alpha_cutoff;
 }
 

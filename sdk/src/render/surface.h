@@ -21,6 +21,7 @@ struct Paint {
   const DecodedImage* base_colour = nullptr;
   const DecodedImage* metal_rough = nullptr;
   const DecodedImage* normal = nullptr;
+  bool coarse_holes = false;  // cut on the exporter's grid
   bool textured() const { return base_colour != nullptr || metal_rough != nullptr || normal != nullptr; }
   bool has_holes() const { return material.alpha_cutoff.has_value(); }
 };
