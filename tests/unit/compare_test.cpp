@@ -202,8 +202,10 @@ TEST(Compare, DarkRegionsAreLeftOutAndListed) {
 // Bright emitters neither darken the other regions nor hide in them; objects have their names.
 TEST(Compare, EmittersAndObjectsAreRegions) {
   Picture truth = flat(64, 64, 1);
-  auto& emitter = truth.add("emitter", 1).pixels;
-  auto& object = truth.add("object", 1).pixels;
+  truth.add("emitter", 1);
+  truth.add("object", 1);
+  auto& emitter = truth.find("emitter")->pixels;
+  auto& object = truth.find("object")->pixels;
   for (std::size_t p = 0; p < emitter.size(); ++p) {
     object[p] = p % 64 < 32 ? 1.F : 2.F;
     if (p / 64 < 8 && p % 64 < 8) {

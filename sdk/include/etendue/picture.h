@@ -37,7 +37,7 @@ struct Picture {
 
   Layer* find(std::string_view name);
   const Layer* find(std::string_view name) const;
-  Layer& add(std::string name, int channels);  // zeroed
+  Layer& add(std::string name, int channels);  // zeroed; references to the other layers end here
 };
 
 // A light's name as it may stand in a channel name: dots and control characters become '_'.
