@@ -91,7 +91,7 @@ std::vector<std::string> grouped(const std::vector<Loss>& losses) {
     const std::size_t shown = whats.size() > most + 1 ? most : whats.size();
     std::string line = fmt::format("{}", fmt::join(whats.begin(), whats.begin() + static_cast<std::ptrdiff_t>(shown), "; "));
     if (shown < whats.size()) line += fmt::format("; and {} more", whats.size() - shown);
-    lines.push_back(line + ": " + effect);
+    lines.push_back(fmt::format("{}: {}", line, effect));
   }
   return lines;
 }

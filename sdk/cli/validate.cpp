@@ -112,7 +112,8 @@ double mean_luminance_of(const Picture& picture) {
   for (std::size_t i = 0; i + 2 < layer->pixels.size(); i += 3) {
     sum += luminance_of({layer->pixels[i], layer->pixels[i + 1], layer->pixels[i + 2]});
   }
-  return sum / static_cast<double>(layer->pixels.size() / 3);
+  const std::size_t pixels = layer->pixels.size() / 3;
+  return sum / static_cast<double>(pixels);
 }
 
 // Everything that the report and compare.json say.
