@@ -11,8 +11,8 @@
 namespace etendue {
 namespace {
 
-constexpr std::uint64_t max_values = std::uint64_t{1} << 31;  // pixels x channels of a part
-constexpr std::uint64_t largest_usual_tile = 1024 * 1024;     // pixels
+constexpr std::uint64_t max_values = std::uint64_t{1} << 31;          // pixels x channels of a part
+constexpr std::uint64_t largest_usual_tile = std::uint64_t{1} << 20;  // pixels
 
 // The header's bytes, front to back, little-endian ("OpenEXR File Layout", openexr.com). Once it has been asked for more than there is,
 // it stays at the end.
