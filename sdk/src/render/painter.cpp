@@ -10,7 +10,7 @@ namespace etendue::rendering {
 namespace {
 
 constexpr int pilot_points = 2;                      // a replicate: 16 samples in all
-constexpr int fewest_points = 8, most_points = 128;  // a replicate, where shadows are mixed
+constexpr int fewest_points = 4, most_points = 128;  // a replicate, where shadows are mixed
 constexpr double shadow_share = 0.2;                 // of the expected noise
 constexpr double shading_share = 0.02;               // of the expected noise: errors of shading are alike in neighbours
 constexpr int most_cells = 8;                        // along a pixel's side

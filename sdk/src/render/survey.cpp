@@ -6,7 +6,7 @@
 namespace etendue::rendering {
 namespace {
 
-constexpr int first_probes = 4, further_probes = 24;  // at random places, beside the corners and the centre
+constexpr int first_probes = 4, further_probes = 12;  // at random places, beside the corners and the centre
 
 }  // namespace
 
