@@ -199,7 +199,7 @@ TEST(EnvironmentRows, SameFunctionAsOurLookup) {
     const double x = u * 8 - 0.5, y = theta / pi * 10;
     const auto at = [&](double column, double row) {
       const auto c = (static_cast<int>(column) + 8) % 8, r = std::min(static_cast<int>(row), 10);
-      const float* p = &rows[static_cast<std::size_t>((r * 8 + c) * 3)];
+      const float* p = &rows[(static_cast<std::size_t>(r) * 8 + static_cast<std::size_t>(c)) * 3];
       return Rgb{p[0], p[1], p[2]};
     };
     const double fx = std::floor(x), fy = std::floor(y), ax = x - fx, ay = y - fy;

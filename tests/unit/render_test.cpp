@@ -34,10 +34,10 @@ Light point_light(double candela, const Vec3d& position) {
 // Emits along -Y instead of -Z.
 Transform facing_down(const Vec3d& position) { return {{Vec3d{1, 0, 0}, Vec3d{0, 0, -1}, Vec3d{0, 1, 0}}, position}; }
 
-Object object(Geometry geometry, Transform transform = {}) {
+Object object(const Geometry& geometry, Transform transform = {}) {
   Object o;
   o.name = "object";
-  o.geometry = std::move(geometry);
+  o.geometry = geometry;
   o.transform = transform;
   return o;
 }
@@ -85,7 +85,8 @@ double pixel_mean(const Camera& camera, const RenderOptions& o, std::size_t pixe
   double sum = 0;
   for (std::size_t j = 0; j < 3; ++j) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const double x = static_cast<double>(pixel % o.width) + place[i], y = static_cast<double>(pixel / o.width) + place[j];
+      const std::size_t column = pixel % o.width, row = pixel / o.width;
+      const double x = static_cast<double>(column) + place[i], y = static_cast<double>(row) + place[j];
       sum += weight[i] * weight[j] * f(floor_point(camera, o, x, y));
     }
   }
@@ -98,7 +99,7 @@ TEST(Render, PointLightOnALambertFloorIsTheCosineLawOverThePixelsArea) {
   scene.lights.push_back(point_light(100, lamp));
   const RenderOptions options = small();
   const Rendered out = rendered(scene, options);
-  for (std::size_t i = 0; i < 24 * 24; ++i) {
+  for (std::size_t i = 0; i < std::size_t{24} * 24; ++i) {
     const double expected = pixel_mean(scene.cameras[0], options, i, [&](const Vec3d& p) {
       const Vec3d to = lamp - p;
       return 0.5 / pi * 100 * to.y / std::pow(dot(to, to), 1.5);
@@ -116,7 +117,7 @@ TEST(Render, RectangleOnALambertFloorIsTheClosedFormIlluminance) {
   const Rendered out = rendered(scene, options);
   const Result<eval::Emitter> emitter = eval::emitter_of(scene.lights[0]);
   ASSERT_TRUE(emitter.ok());
-  for (std::size_t i = 0; i < 24 * 24; ++i) {
+  for (std::size_t i = 0; i < std::size_t{24} * 24; ++i) {
     const double expected = pixel_mean(scene.cameras[0], options, i, [&](const Vec3d& p) {
       return 0.5 / pi * eval::illuminance(*emitter, p, {0, 1, 0}).y;
     });
@@ -133,7 +134,7 @@ TEST(Render, AVisibleSphereLightHasItsLuminanceAndItsSize) {
   const RenderOptions options = small(32, 32);
   const Rendered out = rendered(scene, options);
   double sum = 0;
-  for (std::size_t i = 0; i < 32 * 32; ++i) sum += static_cast<double>(green(out.picture, "", i));
+  for (std::size_t i = 0; i < std::size_t{32} * 32; ++i) sum += static_cast<double>(green(out.picture, "", i));
   const double side = 2 * std::tan(0.3) / 32, tangent = std::tan(std::asin(0.5 / 3));
   // 60 pixels on the rim, each within .02 noise = 2e-4 of its area: 2e-4 sqrt(60) / 314 at random, 4e-5 if all err alike.
   EXPECT_NEAR(sum * side * side, 700 * pi * tangent * tangent, 1e-4 * 700 * pi * tangent * tangent);
@@ -192,7 +193,7 @@ TEST(Render, TwoSeedsDifferByWhatTheVarianceSays) {
   const Rendered b = rendered(penumbra.scene, options);
   double chi2 = 0;
   int count = 0;
-  for (std::size_t i = 0; i < 24 * 24; ++i) {
+  for (std::size_t i = 0; i < std::size_t{24} * 24; ++i) {
     const double v = green(a.picture, "variance", i) + green(b.picture, "variance", i);
     if (v <= 0) continue;
     const double d = green(a.picture, "", i) - green(b.picture, "", i);
@@ -217,7 +218,7 @@ TEST(Render, LayersOfLightsAddUpAndDoNotDependOnThreads) {
   options.threads = 3;
   const Rendered three = rendered(scene, options);
   ASSERT_NE(one.picture.find("light.ball_001"), nullptr);
-  for (std::size_t i = 0; i < 24 * 24; ++i) {
+  for (std::size_t i = 0; i < std::size_t{24} * 24; ++i) {
     const float sum = green(one.picture, "light.point", i) + green(one.picture, "light.ball_001", i);
     ASSERT_NEAR(green(one.picture, "", i), sum, 1e-6 * sum);
     const float variance = green(one.picture, "light_variance.point", i) + green(one.picture, "light_variance.ball_001", i);
@@ -273,7 +274,7 @@ TEST(Render, UniformEnvironment) {
   EXPECT_FLOAT_EQ(green(out.picture, "", 0), 80);
   double sum = 0, variance = 0;
   int count = 0;
-  for (std::size_t i = 0; i < 15 * 15; ++i) {
+  for (std::size_t i = 0; i < std::size_t{15} * 15; ++i) {
     if (out.picture.find("emitter")->pixels[i] != 0) continue;
     sum += static_cast<double>(green(out.picture, "", i));
     variance += static_cast<double>(green(out.picture, "variance", i));
@@ -354,7 +355,7 @@ TEST(Render, TheMitsubaModelLosesShadowsOfThingsThatAreLowerThanItsRaysStart) {
     const Picture picture = rendered(scene, options).picture;
     const double lit = 0.5 * 0.4 / std::sqrt(1.16);
     int dark = 0;
-    for (std::size_t i = 0; i < 24 * 24; ++i)
+    for (std::size_t i = 0; i < std::size_t{24} * 24; ++i)
       dark += picture.find("object")->pixels[i] == 1 && static_cast<double>(green(picture, "", i)) < 0.1 * lit ? 1 : 0;
     return dark;
   };
