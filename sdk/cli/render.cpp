@@ -39,7 +39,7 @@ int run_render(const Common& common, const Options& options) {
   render_options.camera = *camera;
   render_options.lit = *lit;
   render_options.mitsuba_model = options.mitsuba_model;
-  // Shading is computed to a tenth of the noise that is given; --tolerance is that tenth.
+  // Shadows are computed to a fifth of the noise that is given, shading to a fiftieth; --tolerance, a tenth, lies between.
   render_options.expected_noise = 10 * options.tolerance;
   render_options.threads = options.threads;
   Result<Rendered> rendered = [&] {

@@ -266,7 +266,7 @@ void LightPainter::paint_row(std::uint32_t row, RayCounts& counts) {
     const Measured direct = regions != nullptr ? split(x, row, *regions, around.beta, counts) : smooth(x, row, around.beta, centre, counts);
     value_[pixel] = direct.value;
     variance_[pixel] = direct.variance;
-    // Errors of shading come to about a tenth of the tolerance.
+    // What shading may be off by is a bound, not a deviation: a tenth of it is a choice (sdk/docs/rendering.md), not a measurement.
     if (!light_.delta) variance_[pixel] += Rgb{1, 1, 1} * std::pow(0.1 * around.beta * tolerance_.absolute, 2);
     if (light_.delta || (regions == nullptr && (!centre || stage_.thing(centre->thing).paint == nullptr))) continue;
     const Measured shadow = sampled(x, row, around, centre, counts);
