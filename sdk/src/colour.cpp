@@ -1,4 +1,5 @@
 #include "etendue/colour.h"
+#include "planck_locus.h"
 
 #include <fmt/format.h>
 
@@ -8,12 +9,6 @@
 
 namespace etendue {
 namespace {
-
-constexpr Vec3d colour_matching[] = {
-#include "cie1931.inc"
-};
-constexpr int first_nm = 360;
-constexpr double c2_m_K = 1.438776877e-2;  // second radiation constant h c / k, SI 2019
 
 // A 3x3 matrix by its columns.
 struct Matrix {
@@ -48,15 +43,17 @@ Error out_of_range(const char* what, double temperature_K, double low, double hi
 
 Result<Chromaticity> planckian(double temperature_K) {
   constexpr double low = 100, high = 100000;
-  if (!(temperature_K >= low && temperature_K <= high)) return out_of_range("a Planckian radiator", temperature_K, low, high);
+  const bool infinite = std::isinf(temperature_K) && temperature_K > 0;
+  if (!infinite && !(temperature_K >= low && temperature_K <= high)) return out_of_range("a Planckian radiator", temperature_K, low, high);
   // Planck's law without its constant factor, which chromaticity does not see: 1 / (lambda^5 (exp(c2 / (lambda T)) - 1)). Wavelengths are
-  // in micrometres, and exp stays below e^400 at 100 K.
+  // in micrometres, and exp stays below e^400 at 100 K. With T exp(x) - 1 tends to x = c2 / (lambda T), and the spectrum to a multiple of
+  // lambda^-4.
   Vec3d xyz;
-  int nm = first_nm;
-  for (const Vec3d& bar : colour_matching) {
-    const double micrometres = nm++ * 1e-3;
-    const double fifth_power = micrometres * micrometres * micrometres * micrometres * micrometres;
-    xyz += bar / (fifth_power * std::expm1(c2_m_K * 1e6 / (micrometres * temperature_K)));
+  for (int nm = first_nm; nm < first_nm + wavelength_count; ++nm) {
+    const double micrometres = nm * 1e-3;
+    const double fourth_power = micrometres * micrometres * micrometres * micrometres;
+    const double falling = infinite ? 1 : micrometres * std::expm1(c2_m_K * 1e6 / (micrometres * temperature_K));
+    xyz += colour_matching(nm) / (fourth_power * falling);
   }
   const double sum = xyz.x + xyz.y + xyz.z;
   return Chromaticity{xyz.x / sum, xyz.y / sum};
@@ -70,6 +67,20 @@ Result<Chromaticity> daylight(double temperature_K) {
   const double x =
       temperature_K <= 7000 ? ((-4.6070 * m + 2.9678) * m + 0.09911) * m + 0.244063 : ((-2.0064 * m + 1.9018) * m + 0.24748) * m + 0.237040;
   return Chromaticity{x, (-3.000 * x + 2.870) * x - 0.275};
+}
+
+// Below 4000 K: the Planckian chromaticity and, in (u, v), the step to daylight at 4000 K faded out by a smooth ramp over mired.
+Result<Chromaticity> daylight_or_planckian(double temperature_K) {
+  constexpr double join_K = 4000, reached_K = 2500;
+  if (!(temperature_K >= 100 && temperature_K <= 25000))
+    return out_of_range("CIE daylight or below it a Planckian radiator", temperature_K, 100, 25000);
+  if (temperature_K >= join_K) return daylight(temperature_K);
+  const Chromaticity radiator = *planckian(temperature_K);
+  if (temperature_K <= reached_K) return radiator;
+  const double t = (1 / temperature_K - 1 / reached_K) / (1 / join_K - 1 / reached_K);
+  const double weight = t * t * (3 - 2 * t);
+  const Uv from = to_uv1960(*planckian(join_K)), to = to_uv1960(*daylight(join_K)), here = to_uv1960(radiator);
+  return from_uv1960({here.u + weight * (to.u - from.u), here.v + weight * (to.v - from.v)});
 }
 
 Rgb to_rgb(const Chromaticity& xy) {

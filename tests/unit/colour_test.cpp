@@ -49,7 +49,7 @@ TEST(Planckian, KeepsToItsDomain) {
     const Chromaticity xy = *planckian(kelvin);
     EXPECT_TRUE(std::isfinite(xy.x) && xy.y > 0) << kelvin;
   }
-  for (const double kelvin : {99.9, 0.0, -100.0, 100001.0, std::nan(""), HUGE_VAL}) {
+  for (const double kelvin : {99.9, 0.0, -100.0, 100001.0, std::nan(""), -HUGE_VAL}) {
     const Result<Chromaticity> xy = planckian(kelvin);
     ASSERT_FALSE(xy.ok()) << kelvin;
     EXPECT_EQ(xy.error().code, "TEMPERATURE_OUT_OF_RANGE");
