@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 
 namespace etendue::mitsuba {
 namespace {
@@ -71,8 +72,7 @@ void add_conductor(Writer& writer, pugi::xml_node bsdf, const Material& material
   }
 }
 
-Status add_model(Writer& writer, pugi::xml_node parent, const Material& authored) {
-  const Material material = mitsuba_twin(authored);
+Status add_model(Writer& writer, pugi::xml_node parent, const Material& material) {
   if (const auto* lambert = std::get_if<Lambert>(&material.model)) {
     return add_base_colour(writer, add_plugin(parent, "bsdf", "diffuse"), "reflectance", material, lambert->base_colour);
   }
@@ -95,7 +95,15 @@ void report_model(Writer& writer, const Material& material) {
   } else if (std::holds_alternative<MetalRough>(material.model)) {
     writer.losses.add(name_for_losses(material) + ": glTF's metallic-roughness model",
                       "`principled`: brighter by a factor of 1.03 to 1.29 in albedo");
+  } else if (std::holds_alternative<SpecularGlossiness>(material.model)) {
+    const char* effect =
+        material.fallback ? "the file's metallic-roughness fallback instead, as `principled`"
+        : material.specular_gloss_texture
+            ? "`principled`, a dielectric of F0 .04 and roughness .5: the texture of specular colour and glossiness is left out"
+            : "the nearest `principled`: coloured reflections of dielectrics turn grey or metallic";
+    writer.losses.add(name_for_losses(material) + ": glTF's specular-glossiness model", effect);
   }
+  for (const Unshown& unshown : unshown_of(material)) writer.losses.add(name_for_losses(material) + ": " + unshown.what, unshown.effect);
 }
 
 Status add_shaded(Writer& writer, pugi::xml_node parent, const Material& material) {
@@ -111,7 +119,8 @@ Status add_shaded(Writer& writer, pugi::xml_node parent, const Material& materia
 }
 
 // mask(twosided(normalmap(model))), each only where it is needed. The outermost element carries the id.
-Status add_material(Writer& writer, const Material& material, const std::string& id) {
+Status add_material(Writer& writer, const Material& authored, const std::string& id) {
+  const Material material = mitsuba_twin(authored);
   pugi::xml_node inner = writer.root;
   const std::size_t before = static_cast<std::size_t>(std::distance(inner.begin(), inner.end()));
   if (has_holes(material)) {
@@ -136,9 +145,12 @@ std::string material_id(const Scene& scene, std::uint32_t material) {
   return "material_" + std::to_string(material) + "_" + id_safe(scene.materials[material].name);
 }
 
-bool has_textures(const Material& material) { return material.base_colour_texture || material.metal_rough_texture || material.normal_map; }
+bool has_textures(const Material& authored) {
+  const Material material = mitsuba_twin(authored);
+  return material.base_colour_texture || material.metal_rough_texture || material.normal_map;
+}
 
-bool has_holes(const Material& material) { return material.alpha_cutoff && material.base_colour_texture; }
+bool has_holes(const Material& material) { return material.alpha_cutoff && mitsuba_twin(material).base_colour_texture; }
 
 Status write_materials(Writer& writer) {
   const auto uses_default = [](const Object& object) { return object.material == no_index; };

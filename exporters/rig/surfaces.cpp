@@ -85,6 +85,12 @@ struct WriteModel {
     json.member("roughness", m.roughness);
     if (m.ior != MetalRough{}.ior) json.member("ior", m.ior);
   }
+  void operator()(const SpecularGlossiness& m) const {
+    json.member("model", "specular_glossiness");
+    colour("diffuse", m.diffuse);
+    colour("specular", m.specular);
+    json.member("glossiness", m.glossiness);
+  }
 
  private:
   void colour(const char* key, const Rgb& rgb) const {
@@ -99,6 +105,10 @@ void report_losses(Writer& writer, const Material& m) {
   };
   if (m.base_colour_texture) lose("the texture of its base colour", "the factor alone colours the surface");
   if (m.metal_rough_texture) lose("the texture of metal and roughness", "the factors alone say how it reflects");
+  if (m.specular_gloss_texture) lose("the texture of specular colour and glossiness", "the factors alone say how it reflects");
+  if (m.fallback) lose("its metallic-roughness fallback", "left out");
+  if (m.occlusion) lose("its occlusion texture", "left out: it dims indirect light only");
+  for (const Unshown& unshown : unshown_of(m)) lose(unshown.what, unshown.effect);
   if (m.normal_map) lose("its normal map", "the surface is smooth");
   if (m.alpha_cutoff) lose("its alpha cutoff", "the surface has no holes");
   if (m.base_alpha != 1) lose("the alpha of its base colour", "the surface is opaque");

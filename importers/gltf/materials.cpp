@@ -42,6 +42,7 @@ Materials::Entry Materials::read(int material) {
   out.source = pointer;
   out.double_sided = source.doubleSided;
 
+  const nlohmann::json& json = asset_.json().at(nlohmann::json::json_pointer(pointer));
   MetalRough model{rgb_of_factor(pbr.baseColorFactor, 1), pbr.metallicFactor, pbr.roughnessFactor, 1.5};
   if (pbr.baseColorFactor.size() == 4) out.base_alpha = pbr.baseColorFactor[3];
   if (const nlohmann::json* ior = asset_.extension(pointer, "KHR_materials_ior")) {
@@ -52,94 +53,64 @@ Materials::Entry Materials::read(int material) {
                    pointer + "/extensions/KHR_materials_ior/ior");
   }
   out.model = model;
-  out.base_colour_texture =
-      texture(pbr_pointer + "/baseColorTexture", pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord, Encoding::srgb);
-  out.metal_rough_texture = texture(pbr_pointer + "/metallicRoughnessTexture", pbr.metallicRoughnessTexture.index,
-                                    pbr.metallicRoughnessTexture.texCoord, Encoding::linear);
-  if (const auto normal = texture(pointer + "/normalTexture", source.normalTexture.index, source.normalTexture.texCoord, Encoding::linear))
-    out.normal_map = NormalMap{*normal, source.normalTexture.scale};
+  if (const nlohmann::json* core = member(json, "pbrMetallicRoughness")) {
+    out.base_colour_texture = texture(*core, pbr_pointer, "baseColorTexture", Encoding::srgb);
+    out.metal_rough_texture = texture(*core, pbr_pointer, "metallicRoughnessTexture", Encoding::linear);
+  }
+  read_specular_glossiness(out, pointer, member(json, "pbrMetallicRoughness") != nullptr);
+  out.normal_map = normal_map(json, pointer, "normalTexture");
+  if (const auto occlusion = texture(json, pointer, "occlusionTexture", Encoding::linear))
+    out.occlusion = Occlusion{*occlusion, source.occlusionTexture.strength};
+  out.lobes = read_lobes(pointer);
 
   double strength = 1;
   if (const nlohmann::json* extension = asset_.extension(pointer, "KHR_materials_emissive_strength"))
     strength = number_or(*extension, "emissiveStrength", 1);
   out.emissive = rgb_of_factor(source.emissiveFactor, 0) * strength;
-  if (luminance_of(out.emissive) > 0)
-    out.emissive_texture =
-        texture(pointer + "/emissiveTexture", source.emissiveTexture.index, source.emissiveTexture.texCoord, Encoding::srgb);
+  if (luminance_of(out.emissive) > 0) out.emissive_texture = texture(json, pointer, "emissiveTexture", Encoding::srgb);
 
   if (source.alphaMode == "MASK") out.alpha_cutoff = source.alphaCutoff;
-  name_losses(source, pointer);
+  out.blended = source.alphaMode == "BLEND";
+  if (out.blended)
+    asset_.warning("NOT_REPRESENTED", "alphaMode BLEND: the surface is opaque in pictures, what is behind it is hidden",
+                   pointer + "/alphaMode");
   choose_uv_set(entry, pointer);
   return entry;
 }
 
-void Materials::name_losses(const tinygltf::Material& source, const std::string& pointer) {
-  if (source.alphaMode == "BLEND")
-    asset_.warning("NOT_REPRESENTED", "alphaMode BLEND: the surface is opaque, what is behind it is hidden", pointer + "/alphaMode");
-  if (source.occlusionTexture.index >= 0)
-    asset_.note("NOT_REPRESENTED", "the occlusion texture is not used: it dims indirect light only", pointer + "/occlusionTexture");
+// The albedo is diffuse (1 - max(specular)), texel by texel: the authored values stay as they are, two_colour_of() applies the factor.
+void Materials::read_specular_glossiness(Material& out, const std::string& material, bool has_fallback) {
+  const nlohmann::json* extension = asset_.extension(material, "KHR_materials_pbrSpecularGlossiness");
+  if (extension == nullptr) return;
+  const std::string pointer = material + "/extensions/KHR_materials_pbrSpecularGlossiness";
+  if (has_fallback) out.fallback = Fallback{std::get<MetalRough>(out.model), out.base_colour_texture, out.metal_rough_texture};
+  out.model = SpecularGlossiness{colour_or(*extension, "diffuseFactor", 1), colour_or(*extension, "specularFactor", 1),
+                                 number_or(*extension, "glossinessFactor", 1)};
+  out.base_alpha = number_or(*extension, "diffuseFactor", 3, 1);
+  out.base_colour_texture = texture(*extension, pointer, "diffuseTexture", Encoding::srgb);
+  out.metal_rough_texture.reset();
+  out.specular_gloss_texture = texture(*extension, pointer, "specularGlossinessTexture", Encoding::srgb);
 }
 
 // A mesh carries one set of texture coordinates: the base colour's, else that of the first texture.
 void Materials::choose_uv_set(Entry& entry, const std::string& pointer) {
   const Material& m = entry.material;
   entry.wants_tangents = m.normal_map.has_value();
-  const Texture* textures[] = {m.base_colour_texture ? &*m.base_colour_texture : nullptr,
-                               m.metal_rough_texture ? &*m.metal_rough_texture : nullptr, m.normal_map ? &m.normal_map->texture : nullptr,
-                               m.emissive_texture ? &*m.emissive_texture : nullptr};
-  for (const Texture* texture : textures) {
-    if (texture == nullptr) continue;
+  std::optional<int> lost;
+  for_each_texture(m, [&](const std::string& role, const Texture& texture) {
+    if (role == "occlusion" || (role.find('.') != std::string::npos && !role.starts_with("fallback."))) return;  // in no picture
     if (!entry.wants_uvs) {
       entry.wants_uvs = true;
-      entry.uv_set = texture->uv_set;
-    } else if (texture->uv_set != entry.uv_set) {
-      asset_.warning("NOT_REPRESENTED",
-                     fmt::format("the textures use several sets of coordinates: all are looked up with TEXCOORD_{}, TEXCOORD_{} is lost",
-                                 entry.uv_set, texture->uv_set),
-                     pointer);
-      return;
+      entry.uv_set = texture.uv_set;
+    } else if (texture.uv_set != entry.uv_set && !lost) {
+      lost = texture.uv_set;
     }
-  }
-}
-
-std::optional<Texture> Materials::texture(const std::string& pointer, int index, int tex_coord, Encoding encoding) {
-  const tinygltf::Model& model = asset_.model();
-  if (index < 0 || static_cast<std::size_t>(index) >= model.textures.size()) return std::nullopt;
-  const tinygltf::Texture& source = model.textures[static_cast<std::size_t>(index)];
-  const std::string texture_pointer = fmt::format("/textures/{}", index);
-  if (source.source < 0) {
-    asset_.warning("NOT_REPRESENTED", "the texture has no image that can be read; the surface has its plain factor", texture_pointer);
-    return std::nullopt;
-  }
-  const auto image_index = image(source.source);
-  if (!image_index) return std::nullopt;
-
-  Texture out;
-  out.image = *image_index;
-  out.encoding = encoding;
-  out.uv_set = tex_coord;
-  if (source.sampler >= 0 && static_cast<std::size_t>(source.sampler) < model.samplers.size()) {
-    const tinygltf::Sampler& sampler = model.samplers[static_cast<std::size_t>(source.sampler)];
-    const auto wrap = [](int mode) {
-      return mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clamp
-             : mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror
-                                                             : Wrap::repeat;
-    };
-    out.wrap_u = wrap(sampler.wrapS);
-    out.wrap_v = wrap(sampler.wrapT);
-    out.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
-  }
-  if (const nlohmann::json* transform = asset_.extension(pointer, "KHR_texture_transform")) {
-    // uv' = T R S uv. The rotation is counter-clockwise as one sees the image, v down: (c, s; -s, c). So the extension's text, its example
-    // (a quarter turn about (0, 1)) and its implementations; its GLSL lines, read column by column, would turn the other way.
-    const double angle = number_or(*transform, "rotation", 0), c = std::cos(angle), s = std::sin(angle);
-    const double scale_u = number_or(*transform, "scale", 0, 1), scale_v = number_or(*transform, "scale", 1, 1);
-    const double matrix[2][3] = {{c * scale_u, s * scale_v, number_or(*transform, "offset", 0, 0)},
-                                 {-s * scale_u, c * scale_v, number_or(*transform, "offset", 1, 0)}};
-    for (int row = 0; row < 2; ++row) std::copy(matrix[row], matrix[row] + 3, out.uv_transform[row]);
-    out.uv_set = static_cast<int>(number_or(*transform, "texCoord", tex_coord));
-  }
-  return out;
+  });
+  if (lost)
+    asset_.warning("NOT_REPRESENTED",
+                   fmt::format("the textures use several sets of coordinates: all are looked up with TEXCOORD_{}, TEXCOORD_{} is lost",
+                               entry.uv_set, *lost),
+                   pointer);
 }
 
 }  // namespace etendue::gltf

@@ -25,9 +25,13 @@ class Materials {
 
  private:
   Entry read(int material);
-  std::optional<Texture> texture(const std::string& pointer, int texture, int tex_coord, Encoding encoding);
+  void read_specular_glossiness(Material& out, const std::string& material, bool has_fallback);
+  Lobes read_lobes(const std::string& material);
+  // The textureInfo `key` of the object at `pointer`.
+  std::optional<Texture> texture(const nlohmann::json& object, const std::string& pointer, const char* key, Encoding encoding);
+  std::optional<NormalMap> normal_map(const nlohmann::json& object, const std::string& pointer, const char* key);
+  std::optional<std::uint32_t> image_of(int texture);
   std::optional<std::uint32_t> image(int image);
-  void name_losses(const tinygltf::Material& source, const std::string& pointer);
   void choose_uv_set(Entry& entry, const std::string& pointer);
 
   Asset& asset_;
@@ -35,5 +39,10 @@ class Materials {
   std::map<int, Entry> entries_;
   std::map<int, std::optional<std::uint32_t>> images_;
 };
+
+// A member that is an object; nullptr if there is none.
+const nlohmann::json* member(const nlohmann::json& object, const char* key);
+// Three numbers as linear Rec.709.
+Rgb colour_or(const nlohmann::json& object, const char* key, double otherwise);
 
 }  // namespace etendue::gltf

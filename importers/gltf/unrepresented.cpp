@@ -12,8 +12,23 @@ namespace {
 using Json = nlohmann::json;
 
 // Read by this importer. Quantised meshes need nothing more than accessors of any component type.
-constexpr const char* supported[] = {"KHR_lights_punctual", "EXT_lights_area",       "KHR_materials_emissive_strength",
-                                     "KHR_materials_ior",   "KHR_texture_transform", "KHR_mesh_quantization"};
+constexpr const char* supported[] = {"KHR_lights_punctual",
+                                     "EXT_lights_area",
+                                     "KHR_materials_emissive_strength",
+                                     "KHR_materials_ior",
+                                     "KHR_texture_transform",
+                                     "KHR_mesh_quantization",
+                                     "KHR_materials_pbrSpecularGlossiness",
+                                     "KHR_materials_unlit",
+                                     "KHR_materials_clearcoat",
+                                     "KHR_materials_sheen",
+                                     "KHR_materials_transmission",
+                                     "KHR_materials_diffuse_transmission",
+                                     "KHR_materials_volume",
+                                     "KHR_materials_dispersion",
+                                     "KHR_materials_specular",
+                                     "KHR_materials_iridescence",
+                                     "KHR_materials_anisotropy"};
 
 struct Known {
   const char* name;
@@ -21,20 +36,6 @@ struct Known {
   const char* loss;
 };
 constexpr Known known[] = {
-    {"KHR_materials_pbrSpecularGlossiness", Severity::warning,
-     "the specular-glossiness values are not read: the surface has the file's metallic-roughness fallback, or white metal where there is "
-     "none"},
-    {"KHR_materials_unlit", Severity::warning, "the surface is lit like any other instead of showing its base colour"},
-    {"KHR_materials_clearcoat", Severity::warning, "the coat's reflection is lost, and what it takes from the base layer"},
-    {"KHR_materials_sheen", Severity::warning, "the cloth's rim of reflection is lost"},
-    {"KHR_materials_transmission", Severity::warning, "light that passes through the surface is lost: it is opaque"},
-    {"KHR_materials_diffuse_transmission", Severity::warning, "light that passes through the surface is lost: it is opaque"},
-    {"KHR_materials_volume", Severity::warning, "absorption and refraction inside the body are lost"},
-    {"KHR_materials_dispersion", Severity::warning, "the refraction's colours are lost"},
-    {"KHR_materials_specular", Severity::warning,
-     "strength and colour of the dielectric reflection are lost: it has the full F0 of its index"},
-    {"KHR_materials_iridescence", Severity::warning, "the thin film's colours are lost"},
-    {"KHR_materials_anisotropy", Severity::warning, "highlights are round: their stretch and its direction are lost"},
     {"KHR_materials_variants", Severity::warning, "the variants are lost: the default material of each primitive is used"},
     {"KHR_draco_mesh_compression", Severity::warning,
      "compressed meshes are not decoded: the uncompressed fallback is read where there is one"},

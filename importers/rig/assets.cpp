@@ -78,10 +78,7 @@ void shift(std::optional<Texture>& texture, std::uint32_t images) {
 }
 
 void shift(Material& material, std::uint32_t images) {
-  shift(material.base_colour_texture, images);
-  shift(material.metal_rough_texture, images);
-  shift(material.emissive_texture, images);
-  if (material.normal_map) material.normal_map->texture.image += images;
+  for_each_texture(material, [images](const char*, Texture& texture) { texture.image += images; });
 }
 
 template <class T>

@@ -70,6 +70,14 @@ SurfaceModel read_metal_rough(Reader& reader, Fields& fields) {
   return m;
 }
 
+SurfaceModel read_specular_glossiness(Reader& reader, Fields& fields) {
+  SpecularGlossiness m;
+  m.diffuse = read_vec3(fields.find("diffuse"), 0, 1, reader.diagnostics).value_or(m.diffuse);
+  m.specular = read_vec3(fields.find("specular"), 0, 1, reader.diagnostics).value_or(m.specular);
+  m.glossiness = unit_number(reader, fields.find("glossiness")).value_or(m.glossiness);
+  return m;
+}
+
 using ReadModel = SurfaceModel (*)(Reader&, Fields&);
 
 Material read_material(Reader& reader, JsonValue value) {
@@ -78,11 +86,9 @@ Material read_material(Reader& reader, JsonValue value) {
   material.name = read_string(fields.find("name"), reader.diagnostics).value_or("");
   material.source = value.pointer();
   const ReadModel lambert = [](Reader& r, Fields& f) -> SurfaceModel { return Lambert{base_colour(r, f, Lambert{}.base_colour)}; };
-  const Choices<ReadModel> models = {{"lambert", lambert},
-                                     {"principled", read_principled},
-                                     {"standard", read_standard},
-                                     {"conductor", read_conductor},
-                                     {"metal_rough", read_metal_rough}};
+  const Choices<ReadModel> models = {
+      {"lambert", lambert},          {"principled", read_principled},   {"standard", read_standard},
+      {"conductor", read_conductor}, {"metal_rough", read_metal_rough}, {"specular_glossiness", read_specular_glossiness}};
   const std::optional<ReadModel> read_model = read_choice(fields.require("model"), models, reader.diagnostics);
   material.double_sided = read_boolean(fields.find("double_sided"), reader.diagnostics).value_or(true);
   if (!read_model) return material;

@@ -70,7 +70,7 @@ std::string describe_colour(const LightColour& colour) {
 }
 
 const char* model_name(const SurfaceModel& model) {
-  static constexpr const char* names[] = {"lambert", "principled", "standard", "conductor", "metal-rough"};
+  static constexpr const char* names[] = {"lambert", "principled", "standard", "conductor", "metal-rough", "specular-glossiness"};
   return names[model.index()];
 }
 
@@ -78,14 +78,6 @@ std::string image_name(const Scene& scene, const Texture& texture) {
   if (texture.image >= scene.images.size()) return "?";
   const ImageRef& image = scene.images[texture.image];
   return image.name.empty() ? image.file : image.name;
-}
-
-template <class Visit>
-void for_each_texture(const Material& material, Visit visit) {
-  if (material.base_colour_texture) visit("base_colour", *material.base_colour_texture);
-  if (material.metal_rough_texture) visit("metal_rough", *material.metal_rough_texture);
-  if (material.normal_map) visit("normal", material.normal_map->texture);
-  if (material.emissive_texture) visit("emissive", *material.emissive_texture);
 }
 
 }  // namespace
@@ -124,6 +116,7 @@ Json to_json(const Scene& scene, const Light& light) {
 
 std::string describe(const Scene& scene, const Material& material) {
   std::string text = model_name(material.model);
+  for (const Unshown& unshown : unshown_of(material)) text += fmt::format(", {}", unshown.what);
   for_each_texture(material,
                    [&](const char* role, const Texture& texture) { text += fmt::format(", {} {}", role, image_name(scene, texture)); });
   if (material.double_sided) text += ", double-sided";

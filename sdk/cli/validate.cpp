@@ -61,7 +61,9 @@ std::optional<fs::path> cache_folder(const Options& options) {
 // Whether Mitsuba's scene has other materials or distances than the asset: then our picture of the asset itself is made as well.
 bool differs_as_authored(const Scene& scene) {
   for (const Material& material : scene.materials) {
-    if (std::holds_alternative<MetalRough>(material.model) || std::holds_alternative<Standard>(material.model)) return true;
+    if (std::holds_alternative<MetalRough>(material.model) || std::holds_alternative<Standard>(material.model) ||
+        std::holds_alternative<SpecularGlossiness>(material.model))
+      return true;
   }
   return std::any_of(scene.lights.begin(), scene.lights.end(),
                      [](const Light& light) { return light.range_m && light.falloff != Falloff::inverse_square; });

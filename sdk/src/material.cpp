@@ -34,6 +34,7 @@ struct ToMitsuba {
   SurfaceModel operator()(const MetalRough& m) const {
     return Principled{m.base_colour, m.metallic, m.roughness, specular_of_f0(f0_of_ior(m.ior), m.metallic)};
   }
+  SurfaceModel operator()(const SpecularGlossiness& m) const { return fit_principled(two_colour_of(m)); }
   SurfaceModel operator()(const Standard& m) const {
     const double f0 = 0.16 * m.reflectance * m.reflectance;
     return Principled{m.base_colour, m.metal, m.roughness, specular_of_f0(f0, m.metal)};
@@ -52,8 +53,40 @@ Conductor conductor_from_f0(const Rgb& f0, double alpha) {
 
 Material mitsuba_twin(const Material& material) {
   Material twin = material;
-  twin.model = std::visit(ToMitsuba{}, material.model);
+  if (const auto* model = std::get_if<SpecularGlossiness>(&material.model)) {
+    if (material.fallback) {
+      twin.model = material.fallback->model;
+      twin.base_colour_texture = material.fallback->base_colour_texture;
+      twin.metal_rough_texture = material.fallback->metal_rough_texture;
+    } else if (material.specular_gloss_texture) {
+      twin.model = SpecularGlossiness{model->diffuse, {0.04, 0.04, 0.04}, 0.5};
+    }
+    twin.specular_gloss_texture.reset();
+    twin.fallback.reset();
+  }
+  twin.model = std::visit(ToMitsuba{}, twin.model);
   return twin;
+}
+
+std::vector<Unshown> unshown_of(const Material& material) {
+  const Lobes& lobes = material.lobes;
+  std::vector<Unshown> all;
+  const auto name = [&all](bool there, const char* what, const char* effect) {
+    if (there) all.push_back({what, effect});
+  };
+  name(material.blended, "alpha blending", "the surface is opaque, what is behind it is hidden");
+  name(lobes.unlit, "unlit", "the surface is lit like any other instead of showing its base colour");
+  name(lobes.clearcoat.has_value(), "clearcoat", "the coat's reflection is missing, and what it takes from the layer below");
+  name(lobes.sheen.has_value(), "sheen", "the cloth's rim of reflection is missing");
+  name(lobes.transmission.has_value(), "transmission", "no light passes through the surface");
+  name(lobes.diffuse_transmission.has_value(), "diffuse transmission", "no light passes through the surface");
+  name(lobes.volume.has_value(), "volume", "no absorption and no refraction inside the body");
+  name(lobes.dispersion.has_value(), "dispersion", "the refraction has no colours");
+  name(lobes.specular.has_value(), "specular",
+       "the dielectric reflection has the full F0 of its index, without the authored strength and colour");
+  name(lobes.iridescence.has_value(), "iridescence", "the thin film's colours are missing");
+  name(lobes.anisotropy.has_value(), "anisotropy", "highlights are round");
+  return all;
 }
 
 }  // namespace etendue

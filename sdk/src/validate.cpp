@@ -37,6 +37,11 @@ struct CheckModel {
     check.between("roughness", m.roughness, 0, 1);
     if (m.ior != 0) check.between("ior (or 0)", m.ior, 1, any_positive);
   }
+  void operator()(const SpecularGlossiness& m) const {
+    check.colour("diffuse", m.diffuse, 1);
+    check.colour("specular", m.specular, 1);
+    check.between("glossiness", m.glossiness, 0, 1);
+  }
 };
 
 // The first fault of each kind: a broken mesh has thousands.
@@ -101,15 +106,59 @@ void validate_camera(Validator& check, const Camera& camera) {
   if (camera.ev100) check.between("ev100", *camera.ev100, -1000, 1000);
 }
 
+void validate_normal_map(Validator& check, const std::optional<NormalMap>& map) {
+  if (map && !std::isfinite(map->scale)) check.error("NUMBER_INVALID", "expected a finite scale of the normal map");
+}
+
+// The ranges of the extensions' schemas; what they leave open above is any finite number.
+void validate_lobes(Validator& check, const Lobes& lobes) {
+  if (lobes.clearcoat) {
+    check.between("clearcoat factor", lobes.clearcoat->factor, 0, 1);
+    check.between("clearcoat roughness", lobes.clearcoat->roughness, 0, 1);
+    validate_normal_map(check, lobes.clearcoat->normal_map);
+  }
+  if (lobes.sheen) {
+    check.colour("sheen colour", lobes.sheen->colour, 1);
+    check.between("sheen roughness", lobes.sheen->roughness, 0, 1);
+  }
+  if (lobes.transmission) check.between("transmission", lobes.transmission->factor, 0, 1);
+  if (lobes.diffuse_transmission) {
+    check.between("diffuse transmission", lobes.diffuse_transmission->factor, 0, 1);
+    check.colour("diffuse transmission colour", lobes.diffuse_transmission->colour, 1);
+  }
+  if (lobes.volume) {
+    check.between("thickness in m", lobes.volume->thickness_m, 0, any_positive);
+    check.colour("attenuation colour", lobes.volume->attenuation_colour, 1);
+    if (!(lobes.volume->attenuation_distance_m > 0))
+      check.error("VALUE_OUT_OF_RANGE",
+                  fmt::format("expected an attenuation distance above 0 m, found {}", lobes.volume->attenuation_distance_m));
+  }
+  if (lobes.dispersion) check.between("dispersion", lobes.dispersion->value, 0, any_positive);
+  if (lobes.specular) {
+    check.between("specular factor", lobes.specular->factor, 0, 1);
+    check.colour("specular colour", lobes.specular->colour, any_positive);
+  }
+  if (lobes.iridescence) {
+    check.between("iridescence", lobes.iridescence->factor, 0, 1);
+    check.between("iridescence ior", lobes.iridescence->ior, 1, any_positive);
+    check.between("minimum film thickness in nm", lobes.iridescence->min_thickness_nm, 0, any_positive);
+    check.between("maximum film thickness in nm", lobes.iridescence->max_thickness_nm, 0, any_positive);
+  }
+  if (lobes.anisotropy) {
+    check.between("anisotropy", lobes.anisotropy->strength, 0, 1);
+    if (!std::isfinite(lobes.anisotropy->rotation_rad)) check.error("NUMBER_INVALID", "expected a finite rotation of the anisotropy");
+  }
+}
+
 void validate_material(Validator& check, const Material& material) {
   std::visit(CheckModel{check}, material.model);
-  if (material.base_colour_texture) check.texture("the image of the base colour", *material.base_colour_texture);
-  if (material.metal_rough_texture) check.texture("the image of metal and roughness", *material.metal_rough_texture);
-  if (material.emissive_texture) check.texture("the image of the emission", *material.emissive_texture);
-  if (material.normal_map) {
-    check.texture("the image of the normal map", material.normal_map->texture);
-    if (!std::isfinite(material.normal_map->scale)) check.error("NUMBER_INVALID", "expected a finite scale of the normal map");
-  }
+  if (material.fallback) CheckModel{check}(material.fallback->model);
+  for_each_texture(material, [&check](const char* role, const Texture& texture) {
+    check.texture(fmt::format("the image of {}", role).c_str(), texture);
+  });
+  validate_normal_map(check, material.normal_map);
+  validate_lobes(check, material.lobes);
+  if (material.occlusion) check.between("occlusion strength", material.occlusion->strength, 0, 1);
   if (material.alpha_cutoff) check.between("the alpha cutoff", *material.alpha_cutoff, 0, any_positive);
   check.between("the base colour's alpha", material.base_alpha, 0, 1);
   check.colour("the emission in cd/m2", material.emissive, any_positive);

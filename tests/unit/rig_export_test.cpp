@@ -135,6 +135,11 @@ struct SayModel {
     say(said, m.base_colour);
     say(said, m.metallic, m.roughness, m.ior);
   }
+  void operator()(const SpecularGlossiness& m) const {
+    say(said, m.diffuse);
+    say(said, m.specular);
+    say(said, m.glossiness);
+  }
 };
 
 Said said_of(const Material& m) {
@@ -256,7 +261,7 @@ class Generator {
     Material m;
     m.name = word();
     m.double_sided = maybe();
-    switch (below(5)) {
+    switch (below(6)) {
       case 0:
         m.model = Lambert{vec(0, 1)};
         break;
@@ -268,6 +273,9 @@ class Generator {
         break;
       case 3:
         m.model = Conductor{vec(0.1, 5), vec(0, 9), between(0.001, 1), maybe() ? Masking::separable : Masking::correlated};
+        break;
+      case 4:
+        m.model = SpecularGlossiness{vec(0, 1), vec(0, 1), between(0, 1)};
         break;
       default:
         m.model = MetalRough{vec(0, 1), between(0, 1), between(0, 1), maybe() ? 1.5 : between(1, 3)};

@@ -35,7 +35,7 @@ struct GgxLobe {
   Masking masking = Masking::correlated;
 };
 // A BRDF with every parameter resolved at one point.
-using Brdf = std::variant<Lambert, Principled, Standard, Conductor, MetalRough, DisneyDiffuse, FrostbiteDiffuse, GgxLobe>;
+using Brdf = std::variant<Lambert, Principled, Standard, Conductor, MetalRough, DisneyDiffuse, FrostbiteDiffuse, GgxLobe, TwoColour>;
 
 // BRDF times cosine of `light`, 1/sr. Unit vectors in the shading frame (z is the normal). 0 if either is below the horizon.
 Rgb brdf_cos(const Brdf& brdf, const Vec3d& view, const Vec3d& light);

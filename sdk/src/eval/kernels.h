@@ -154,7 +154,8 @@ struct StandardKernel {
 };
 
 // glTF 2.0 appendix B: mix(dielectric, metal, metallic), metal = Schlick(base) specular, dielectric = mix(base / pi, specular,
-// Schlick(f0)), with the separable form of Smith's masking (B.3.2), alpha = roughness^2.
+// Schlick(f0)), with "the separable form of the Smith joint masking-shadowing function" (B.3.2; Khronos' sample viewer takes the
+// height-correlated one), alpha = roughness^2.
 struct MetalRoughKernel {
   MetalRoughKernel(const MetalRough& m, const Vec3d& view)
       : v(view),
@@ -180,6 +181,26 @@ struct MetalRoughKernel {
   double metallic, f0;
 };
 
+// Diffuse albedo and f0 apart (material.h): the dielectric of glTF's appendix B with both colours free.
+struct TwoColourKernel {
+  TwoColourKernel(const TwoColour& m, const Vec3d& view)
+      : v(view),
+        alpha(std::max(m.roughness * m.roughness, min_alpha)),
+        lobe(alpha, Masking::separable, view),
+        diffuse(m.diffuse),
+        f0(m.f0) {}
+  Rgb operator()(const Vec3d& l) const {
+    const HalfAngle h = half_angle(v, l);
+    const Rgb fresnel = schlick(f0, 1, schlick_weight(h.v_dot_h));
+    return diffuse * (Rgb{1, 1, 1} - fresnel) * (l.z / pi) + fresnel * lobe(h, l.z);
+  }
+  LobeFacts facts() const { return {alpha, share_of(mean_of(schlick(f0, 1, schlick_weight(v.z))), mean_of(diffuse))}; }
+  Vec3d v;
+  double alpha;
+  GgxView lobe;
+  Rgb diffuse, f0;
+};
+
 inline LambertKernel kernel_of(const Lambert& m, const Vec3d& v) { return {m, v}; }
 inline PrincipledKernel kernel_of(const Principled& m, const Vec3d& v) { return {m, v}; }
 inline StandardKernel kernel_of(const Standard& m, const Vec3d& v) { return {m, v}; }
@@ -188,6 +209,7 @@ inline MetalRoughKernel kernel_of(const MetalRough& m, const Vec3d& v) { return 
 inline DisneyDiffuseKernel kernel_of(const DisneyDiffuse& m, const Vec3d& v) { return {m, v}; }
 inline DisneyDiffuseKernel kernel_of(const FrostbiteDiffuse& m, const Vec3d& v) { return {m, v}; }
 inline GgxKernel kernel_of(const GgxLobe& m, const Vec3d& v) { return {m, v}; }
+inline TwoColourKernel kernel_of(const TwoColour& m, const Vec3d& v) { return {m, v}; }
 
 // Calls `use` with the kernel of whatever the BRDF holds: the choice is made once, not for every direction.
 template <class Use>

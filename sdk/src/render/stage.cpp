@@ -57,6 +57,12 @@ Result<std::unique_ptr<Stage>> Stage::build(const Scene& scene, const RenderOpti
   const Bounds bounds = bounds_of(scene);
   stage->offset_ = 5e-7 * (bounds.empty() ? 1.0 : std::max(largest_coordinate(bounds), 1e-3));
   stage->mitsuba_rays_ = options.mitsuba_model;
+  for (const NamedPaint& known : stage->paints_) {
+    const Material& material = known.paint.material;
+    for (const Unshown& unshown : unshown_of(material))
+      diagnostics.warning("NOT_SHOWN", "material '" + material.name + "': " + unshown.what + ": " + unshown.effect,
+                          {scene.file, 0, 0, material.source});
+  }
   if (stage->lights_.empty()) diagnostics.warning("NO_LIGHT", "no light of the scene emits: the picture is black", {scene.file, 0, 0, {}});
   return stage;
 }
@@ -94,6 +100,7 @@ Result<const Paint*> Stage::paint(const Scene& scene, std::uint32_t material, bo
       !std::holds_alternative<Lambert>(paint.material.model) && !std::holds_alternative<Conductor>(paint.material.model);
   if (rough_matters) {
     if (Status done = want(paint.material.metal_rough_texture, paint.metal_rough); !done) return done.error();
+    if (Status done = want(paint.material.specular_gloss_texture, paint.specular_gloss); !done) return done.error();
   }
   if (paint.material.normal_map) {
     if (Status done = want(paint.material.normal_map->texture, paint.normal); !done) return done.error();

@@ -60,6 +60,7 @@ double channel(const DecodedImage* image, const std::optional<Texture>& texture,
 struct Resolve {
   const Rgb& base_colour;
   double metallic, roughness;  // factors from the texture
+  const Rgba& specular_gloss;  // likewise
   eval::Brdf operator()(const Lambert&) const { return Lambert{base_colour}; }
   eval::Brdf operator()(const Principled& m) const {
     return Principled{base_colour, m.metallic * metallic, m.roughness * roughness, m.specular};
@@ -71,12 +72,18 @@ struct Resolve {
   eval::Brdf operator()(const MetalRough& m) const {
     return MetalRough{base_colour, m.metallic * metallic, m.roughness * roughness, m.ior};
   }
+  eval::Brdf operator()(const SpecularGlossiness& m) const {
+    const Rgba& s = specular_gloss;
+    return two_colour_of({base_colour, m.specular * Rgb{s.r, s.g, s.b}, m.glossiness * s.a});
+  }
 };
 
 eval::Brdf brdf_at(const Paint& paint, Vec2d uv) {
   const double metallic = channel(paint.metal_rough, paint.material.metal_rough_texture, uv, &Rgba::b);
   const double roughness = channel(paint.metal_rough, paint.material.metal_rough_texture, uv, &Rgba::g);
-  return std::visit(Resolve{base_colour_at(paint, uv), metallic, roughness}, paint.material.model);
+  const Rgba specular_gloss =
+      paint.specular_gloss == nullptr ? Rgba{1, 1, 1, 1} : sample(*paint.specular_gloss, *paint.material.specular_gloss_texture, uv);
+  return std::visit(Resolve{base_colour_at(paint, uv), metallic, roughness, specular_gloss}, paint.material.model);
 }
 
 // The normal map's vector in the frame (s, t, n): s is the tangent made perpendicular to the interpolated normal, t = n x s. On the back of
@@ -120,6 +127,8 @@ Rgb base_colour_at(const Paint& paint, Vec2d uv) {
       [](const auto& m) {
         if constexpr (requires { m.base_colour; })
           return m.base_colour;
+        else if constexpr (requires { m.diffuse; })
+          return m.diffuse;
         else
           return Rgb{1, 1, 1};
       },
@@ -147,6 +156,7 @@ double lobe_width(const SurfaceModel& model) {
     double operator()(const Standard& m) const { return m.roughness * m.roughness; }
     double operator()(const Conductor& m) const { return m.alpha; }
     double operator()(const MetalRough& m) const { return m.roughness * m.roughness; }
+    double operator()(const SpecularGlossiness& m) const { return (1 - m.glossiness) * (1 - m.glossiness); }
   } width;
   return std::max(narrowest, std::visit(width, model));
 }

@@ -20,9 +20,10 @@ struct Paint {
   Material material;
   const DecodedImage* base_colour = nullptr;
   const DecodedImage* metal_rough = nullptr;
+  const DecodedImage* specular_gloss = nullptr;
   const DecodedImage* normal = nullptr;
   bool coarse_holes = false;  // cut on the exporter's grid
-  bool textured() const { return base_colour != nullptr || metal_rough != nullptr || normal != nullptr; }
+  bool textured() const { return base_colour != nullptr || metal_rough != nullptr || specular_gloss != nullptr || normal != nullptr; }
   bool has_holes() const { return material.alpha_cutoff.has_value(); }
 };
 
