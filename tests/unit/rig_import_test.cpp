@@ -556,7 +556,11 @@ class TwoThings : public Importer {
     Imported imported;
     Scene& s = imported.scene;
     s.images.push_back({"i.png", nullptr, "", "i"});
-    s.materials.push_back({"skin", Lambert{}, Texture{}, {}, {}, {}, 1, true, {0, 0, 0}, {}, "/materials/0"});
+    Material skin;
+    skin.name = "skin";
+    skin.base_colour_texture = Texture{};
+    skin.source = "/materials/0";
+    s.materials.push_back(skin);
     s.meshes.push_back({"tri", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {0, 1, 2}, "/meshes/0"});
     s.objects.push_back({"wall", MeshGeometry{0}, 0, Transform::from_trs({0, 0, 1}, {}), "/nodes/0"});
     Light lamp;
