@@ -84,6 +84,7 @@ Json to_json(const Diagnostic& diagnostic) {
   if (!diagnostic.where.file.empty()) json["file"] = diagnostic.where.file;
   if (diagnostic.where.line > 0) json["line"] = diagnostic.where.line;
   if (diagnostic.where.column > 0) json["column"] = diagnostic.where.column;
+  if (diagnostic.where.offset >= 0) json["offset"] = diagnostic.where.offset;
   if (!diagnostic.where.pointer.empty()) json["pointer"] = diagnostic.where.pointer;
   if (!diagnostic.hint.empty()) json["hint"] = diagnostic.hint;
   return json;

@@ -24,6 +24,8 @@ std::string to_string(const Where& where) {
   if (where.line > 0) {
     text += (text.empty() ? "line " : ":") + std::to_string(where.line);
     if (where.column > 0) text += ":" + std::to_string(where.column);
+  } else if (where.offset >= 0) {
+    text += (text.empty() ? "(byte " : " (byte ") + std::to_string(where.offset) + ")";
   }
   return text;
 }

@@ -2,6 +2,7 @@
 // No function of the SDK throws across its interface, prints, or aborts: it returns one of these.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,15 +11,16 @@
 
 namespace etendue {
 
-// A place in an input. Lines and columns count from 1, columns in bytes; 0 means unknown.
+// A place in an input. Lines and columns count from 1, columns in bytes; 0 means unknown. Binary files have an offset instead.
 struct Where {
   std::string file;
   int line = 0;
   int column = 0;
-  std::string pointer;  // RFC 6901 JSON pointer, "" where the input is not JSON or the place is the root
+  std::string pointer;       // RFC 6901 JSON pointer, "" where the input is not JSON or the place is the root
+  std::int64_t offset = -1;  // in bytes from the beginning of the file; -1: unknown
 };
 
-// "file:line:column", shortened to what is known.
+// "file:line:column" or "file (byte offset)", shortened to what is known.
 std::string to_string(const Where& where);
 
 enum class Severity { note, warning, error };
