@@ -18,6 +18,12 @@ if(NOT fmt_FOUND)
   etendue_missing("fmt" "libfmt-dev")
 endif()
 
+# Highway: kernels compiled once for each instruction set, the machine's best chosen at run time.
+find_package(hwy QUIET)
+if(NOT hwy_FOUND)
+  etendue_missing("Highway (>= 1.0.3)" "libhwy-dev")
+endif()
+
 find_package(CLI11 QUIET)
 if(NOT CLI11_FOUND)
   etendue_missing("CLI11" "libcli11-dev")

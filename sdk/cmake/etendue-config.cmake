@@ -2,6 +2,7 @@
 include(CMakeFindDependencyMacro)
 find_dependency(fmt)
 find_dependency(nlohmann_json)
+find_dependency(hwy)
 foreach(component core eval)
   include(${CMAKE_CURRENT_LIST_DIR}/etendue-${component}.cmake)
   set(etendue_${component}_FOUND TRUE)

@@ -1,0 +1,112 @@
+// Exposure values and plain factors, many at once.
+#include "etendue/batch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "batch_exposure.cpp"  // this file: compiled again for each instruction set
+#include <hwy/foreach_target.h>
+
+#include "simd-inl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+HWY_BEFORE_NAMESPACE();
+namespace etendue::HWY_NAMESPACE {
+namespace {
+
+constexpr float least = std::numeric_limits<float>::min(), largest = std::numeric_limits<float>::max();
+
+// The factor as f (1 + rest), f rounded towards zero, since one float alone would cost up to an ulp more. rest > 0 keeps infinities from
+// meeting their opposites; the order of arguments lets NaN through the limits.
+void Scaled(const float* in, float factor, float rest, float* out, std::size_t count) {
+  const hn::ScalableTag<float> d;
+  const auto f = hn::Set(d, factor), r = hn::Set(d, rest), highest = hn::Set(d, largest), lowest = hn::Set(d, -largest);
+  for_each_vector<1, 1>(d, in, out, count, 0.0f, [&](const float* from, float* to) {
+    const auto product = hn::Mul(hn::LoadU(d, from), f);
+    hn::StoreU(hn::Max(lowest, hn::Min(highest, hn::MulAdd(product, r, product))), d, to);
+  });
+}
+
+// The limits keep the product a normal float.
+std::size_t LuminanceOfEv100(const float* ev100, float factor, float* luminance, std::size_t count, float where_none) {
+  const hn::ScalableTag<float> d;
+  const auto k = hn::Set(d, factor);
+  const auto none = hn::Set(d, where_none);
+  std::size_t without = 0;
+  for_each_vector<1, 1>(d, ev100, luminance, count, 0.0f, [&](const float* from, float* to) {
+    const auto ev = hn::LoadU(d, from);
+    const auto invalid = hn::IsNaN(ev);
+    const auto product = hn::Mul(exp2_of(d, ev), k);
+    const auto held = hn::Min(hn::Max(product, hn::Set(d, least)), hn::Set(d, largest));
+    hn::StoreU(hn::IfThenElse(invalid, none, held), d, to);
+    without += hn::CountTrue(d, invalid);
+  });
+  return without;
+}
+
+// The whole part of log2(K/100) goes to the whole part of log2(L), exactly; the fractions are added first.
+std::size_t Ev100OfLuminance(const float* luminance, float whole_shift, float fraction_shift, float* ev100, std::size_t count,
+                             float where_none) {
+  const hn::ScalableTag<float> d;
+  const auto whole = hn::Set(d, whole_shift), fraction = hn::Set(d, fraction_shift);
+  const auto none = hn::Set(d, where_none);
+  std::size_t without = 0;
+  for_each_vector<1, 1>(d, luminance, ev100, count, 1.0f, [&](const float* from, float* to) {
+    const auto l = hn::LoadU(d, from);
+    const auto valid = hn::And(hn::Gt(l, hn::Zero(d)), hn::Le(l, hn::Set(d, largest)));
+    const auto log = log2_of(d, l);
+    const auto ev = hn::Add(hn::Sub(log.whole, whole), hn::Sub(log.fraction, fraction));
+    hn::StoreU(hn::IfThenElse(valid, ev, none), d, to);
+    without += hn::CountTrue(d, hn::Not(valid));
+  });
+  return without;
+}
+
+}  // namespace
+}  // namespace etendue::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace etendue {
+namespace {
+
+HWY_EXPORT(Scaled);
+HWY_EXPORT(LuminanceOfEv100);
+HWY_EXPORT(Ev100OfLuminance);
+
+Error sizes_differ(std::size_t in, std::size_t out) {
+  return {"BATCH_SIZES_DIFFER", fmt::format("expected an output of {} elements, as many as the input has, found {}", in, out), {}, {}, {}};
+}
+
+}  // namespace
+
+Status scaled(std::span<const float> in, double factor, std::span<float> out) {
+  if (in.size() != out.size()) return sizes_differ(in.size(), out.size());
+  const double held = std::clamp<double>(factor, -std::numeric_limits<float>::max(), std::numeric_limits<float>::max());
+  auto rounded = static_cast<float>(held);
+  if (std::abs(rounded) > std::abs(held)) rounded = std::nextafter(rounded, 0.0f);
+  const double rest = std::max(rounded != 0 ? held / rounded - 1 : 0, 1e-30);
+  HWY_DYNAMIC_DISPATCH(Scaled)(in.data(), rounded, static_cast<float>(rest), out.data(), in.size());
+  return Done{};
+}
+
+BatchOutcome luminance_of_ev100(std::span<const float> ev100, const Calibration& calibration, std::span<float> luminance_cd_m2,
+                                float where_none) {
+  if (ev100.size() != luminance_cd_m2.size()) return sizes_differ(ev100.size(), luminance_cd_m2.size());
+  return HWY_DYNAMIC_DISPATCH(LuminanceOfEv100)(ev100.data(), static_cast<float>(calibration.meter_k / 100), luminance_cd_m2.data(),
+                                                ev100.size(), where_none);
+}
+
+BatchOutcome ev100_of_luminance(std::span<const float> luminance_cd_m2, const Calibration& calibration, std::span<float> ev100,
+                                float where_none) {
+  if (luminance_cd_m2.size() != ev100.size()) return sizes_differ(luminance_cd_m2.size(), ev100.size());
+  const double shift = std::log2(calibration.meter_k / 100), whole = std::round(shift);
+  return HWY_DYNAMIC_DISPATCH(Ev100OfLuminance)(luminance_cd_m2.data(), static_cast<float>(whole), static_cast<float>(shift - whole),
+                                                ev100.data(), luminance_cd_m2.size(), where_none);
+}
+
+}  // namespace etendue
+#endif  // HWY_ONCE

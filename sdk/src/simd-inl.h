@@ -1,0 +1,93 @@
+// What kernels share: a loop over whole vectors, and powers and logarithms to the base two. Compiled once for each instruction set: include
+// it in a kernel's file after HWY_TARGET_INCLUDE and hwy/foreach_target.h, as batch_exposure.cpp does.
+#if defined(ETENDUE_SIMD_INL_H) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard, once an instruction set
+#ifdef ETENDUE_SIMD_INL_H
+#undef ETENDUE_SIMD_INL_H
+#else
+#define ETENDUE_SIMD_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstddef>
+
+HWY_BEFORE_NAMESPACE();
+namespace etendue::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// body(in, out) for each vector of elements, of which `In` numbers are read and `Out` are written each (interleaved). What is left at the
+// end goes through a vector of its own, filled up with `padding`, which should be a number that the body does not count. In place is
+// allowed where In = Out.
+template <std::size_t In, std::size_t Out, class D, class TI, class TO, class Body>
+HWY_INLINE void for_each_vector(D d, const TI* in, TO* out, std::size_t count, TI padding, Body body) {
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t i = 0;
+  for (; i + 4 * lanes <= count; i += 4 * lanes)
+    for (std::size_t j = i; j < i + 4 * lanes; j += lanes) body(in + j * In, out + j * Out);
+  for (; i + lanes <= count; i += lanes) body(in + i * In, out + i * Out);
+  if (i == count) return;
+  HWY_ALIGN TI last_in[In * hn::MaxLanes(d)];
+  HWY_ALIGN TO last_out[Out * hn::MaxLanes(d)];
+  std::fill_n(last_in, In * lanes, padding);
+  std::copy(in + i * In, in + count * In, last_in);
+  body(last_in, last_out);
+  std::copy(last_out, last_out + (count - i) * Out, out + i * Out);
+}
+
+// 2^x for floats, x clamped to [-150, 128): subnormals included, never infinite. 2^x = 2^k 2^f, k the nearest integer, |f| <= 1/2, and 2^f
+// = sum (f ln 2)^n / n! up to n = 7: the next term is 5e-9. With its roundings, relative error <= 2e-7; exact at integers.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V exp2_of(D d, V x) {
+  const hn::RebindToSigned<D> di;
+  // The clamp's order makes a NaN the least: it stays within the exponent's range.
+  const V clamped = hn::Min(hn::Max(x, hn::Set(d, -150.0f)), hn::Set(d, 127.99999f));
+  const V whole = hn::Round(clamped);
+  const V f = hn::Sub(clamped, whole);
+  V p = hn::Set(d, 1.5252734e-5f);                  // (ln 2)^7 / 7!
+  p = hn::MulAdd(p, f, hn::Set(d, 1.5403530e-4f));  // (ln 2)^6 / 6!
+  p = hn::MulAdd(p, f, hn::Set(d, 1.3333558e-3f));  // (ln 2)^5 / 5!
+  p = hn::MulAdd(p, f, hn::Set(d, 9.6181291e-3f));  // (ln 2)^4 / 4!
+  p = hn::MulAdd(p, f, hn::Set(d, 5.5504109e-2f));  // (ln 2)^3 / 3!
+  p = hn::MulAdd(p, f, hn::Set(d, 2.4022651e-1f));  // (ln 2)^2 / 2!
+  p = hn::MulAdd(p, f, hn::Set(d, 6.9314718e-1f));  // ln 2
+  p = hn::MulAdd(p, f, hn::Set(d, 1.0f));
+  // 2^k in two factors, since k = 128 or k < -126 has no normal float of its own.
+  const auto k = hn::ConvertTo(di, whole);
+  const auto half = hn::ShiftRight<1>(k);
+  const auto bias = hn::Set(di, 127);
+  const V low = hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(half, bias)));
+  const V high = hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(hn::Sub(k, half), bias)));
+  return hn::Mul(hn::Mul(p, low), high);
+}
+
+// log2(x) of positive finite floats as whole + fraction, |fraction| <= 1/2. x = 2^e m, m in [sqrt(1/2), sqrt(2)), and log2(m) = 2/ln 2
+// (z + z^3/3 + z^5/5 + z^7/7 + z^9/9), z = (m - 1)/(m + 1), |z| <= .1716: the next term is 1e-9. Absolute error of the fraction <= 6e-8.
+template <class V>
+struct Log2Parts {
+  V whole, fraction;
+};
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Log2Parts<V> log2_of(D d, V x) {
+  const hn::RebindToSigned<D> di;
+  // Subnormals are scaled by 2^24 first.
+  const auto small = hn::Lt(x, hn::Set(d, 1.17549435e-38f));
+  const V scaled = hn::IfThenElse(small, hn::Mul(x, hn::Set(d, 16777216.0f)), x);
+  const V taken_back = hn::IfThenElseZero(small, hn::Set(d, -24.0f));
+  const auto bits = hn::BitCast(di, scaled);
+  const auto e = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f3504f3)));  // the bits of sqrt(1/2)
+  const V m = hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(e)));
+  const V one = hn::Set(d, 1.0f);
+  const V z = hn::Div(hn::Sub(m, one), hn::Add(m, one));
+  const V squared = hn::Mul(z, z);
+  V p = hn::Set(d, 0.32059890f);                        // 2 / (9 ln 2)
+  p = hn::MulAdd(p, squared, hn::Set(d, 0.41219858f));  // 2 / (7 ln 2)
+  p = hn::MulAdd(p, squared, hn::Set(d, 0.57707802f));  // 2 / (5 ln 2)
+  p = hn::MulAdd(p, squared, hn::Set(d, 0.96179669f));  // 2 / (3 ln 2)
+  p = hn::MulAdd(p, squared, hn::Set(d, 2.8853901f));   // 2 / ln 2
+  return {hn::Add(hn::ConvertTo(d, e), taken_back), hn::Mul(p, z)};
+}
+
+}  // namespace etendue::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // include guard
