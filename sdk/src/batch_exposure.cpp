@@ -20,15 +20,13 @@ namespace {
 constexpr float least = std::numeric_limits<float>::min(), largest = std::numeric_limits<float>::max();
 
 // The factor as f (1 + rest), f rounded towards zero, since one float alone would cost up to an ulp more. rest > 0 keeps infinities from
-// meeting their opposites; NaN passes the limits, which Min and Max do not promise.
+// meeting their opposites.
 void Scaled(const float* in, float factor, float rest, float* out, std::size_t count) {
   const hn::ScalableTag<float> d;
   const auto f = hn::Set(d, factor), r = hn::Set(d, rest), highest = hn::Set(d, largest), lowest = hn::Set(d, -largest);
   for_each_vector<1, 1>(d, in, out, count, 0.0f, [&](const float* from, float* to) {
     const auto product = hn::Mul(hn::LoadU(d, from), f);
-    const auto exacter = hn::MulAdd(product, r, product);
-    const auto held = hn::IfThenElse(hn::Gt(exacter, highest), highest, exacter);
-    hn::StoreU(hn::IfThenElse(hn::Lt(held, lowest), lowest, held), d, to);
+    hn::StoreU(held_within(lowest, hn::MulAdd(product, r, product), highest), d, to);
   });
 }
 

@@ -35,6 +35,18 @@ HWY_INLINE void for_each_vector(D d, const TI* in, TO* out, std::size_t count, T
   std::copy(last_out, last_out + (count - i) * Out, out + i * Out);
 }
 
+// x within limits; NaN stays NaN. Highway leaves it open what Min and Max make of NaN; x86's return their second operand then, at half the
+// price of comparisons.
+template <class V>
+HWY_INLINE V held_within(V low, V x, V high) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  return hn::Max(low, hn::Min(high, x));
+#else
+  const V held = hn::IfThenElse(hn::Gt(x, high), high, x);
+  return hn::IfThenElse(hn::Lt(held, low), low, held);
+#endif
+}
+
 // 2^x for floats, x clamped to [-150, 128): subnormals included, never infinite. 2^x = 2^k 2^f, k the nearest integer, |f| <= 1/2, and 2^f
 // = sum (f ln 2)^n / n! up to n = 7: the next term is 5e-9. With its roundings, relative error <= 2e-7; exact at integers.
 template <class D, class V = hn::Vec<D>>
