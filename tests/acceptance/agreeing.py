@@ -14,12 +14,15 @@ def add_options(parser, spp=4096):
     parser.add_argument("--size", default="128x128")
     parser.add_argument("--spp", type=int, default=spp, help="samples per pixel to begin with")
     parser.add_argument("--most", type=int, default=65536, help="samples per pixel that are not exceeded; an undecided comparison fails")
+    parser.add_argument("--cache", help="folder for Mitsuba's pictures, for a second run with the same scenes")
+    parser.add_argument("--resume", metavar="FILE", help="append each figure to FILE, and measure only what is not in it yet")
 
 
 def validate(arguments, asset, samples, folder, max_difference="0.2%", more=()):
     """The result of `etendue validate`, or None and what went wrong. The report is left in folder/out."""
     command = [arguments.etendue, "validate", str(asset), "--json", "--quiet", "--max-diff", max_difference, "--size", arguments.size, "--spp",
-               str(samples), "--seeds", "16", "--out", str(pathlib.Path(folder) / "out"), "--no-cache", *more]
+               str(samples), "--seeds", "16", "--out", str(pathlib.Path(folder) / "out"), *more]
+    command += ["--cache", arguments.cache] if arguments.cache else ["--no-cache"]
     run = subprocess.run(command, capture_output=True, text=True)
     try:
         document = json.loads(run.stdout)
@@ -35,27 +38,52 @@ def judged(result):
     return [r for r in result["regions"] if not r.get("left_out") and not r["merged"] and r["region"] != "visible emitters"]
 
 
-def agrees(arguments, label, asset, folder):
-    """Takes more samples until every region's standard error is small enough, as the definition of an agreement asks. Prints one line."""
+def measure(arguments, asset, folder):
+    """The figures of one configuration, with as many samples as it takes until every region's standard error is small enough, as the
+    definition of an agreement asks."""
     samples = arguments.spp
     start = time.time()
     while True:
         result, problem = validate(arguments, asset, samples, folder)
         if result is None:
-            print("%-34s FAILED: %s" % (label, problem), flush=True)
-            return False
+            return {"problem": problem}
         if result["verdict"] != "undecided" or 4 * samples > arguments.most:
             break
         samples *= 4
     regions = judged(result)
     worst = max(regions, key=lambda r: abs(r["difference"]) - 3 * r["standard_error"])
-    widest = max(r["standard_error"] for r in regions)
     # Chi-squared has its window over 1e4 pixels or more; the lower end moves where Mitsuba's float32 sums are more than its noise.
-    counted = result["chi2_pixels"] >= 10000
-    low, high = CHI2[0] * result["chi2_expected"], CHI2[1]
-    ok = result["verdict"] == "same" and (not counted or low <= result["chi2_per_pixel"] <= high)
+    limits = [CHI2[0] * result["chi2_expected"], CHI2[1]] if result["chi2_pixels"] >= 10000 else None
+    return {"d": worst["difference"], "d_se": worst["standard_error"], "se": max(r["standard_error"] for r in regions),
+            "chi2": result["chi2_per_pixel"], "chi2_pixels": result["chi2_pixels"], "chi2_limits": limits, "verdict": result["verdict"],
+            "samples": samples, "seconds": time.time() - start}
+
+
+def recorded(arguments, label):
+    """What an earlier run left about `label` in the file of --resume; the last line counts."""
+    found = None
+    if arguments.resume and pathlib.Path(arguments.resume).exists():
+        for line in pathlib.Path(arguments.resume).read_text().splitlines():
+            entry = json.loads(line)
+            found = entry["figures"] if entry["label"] == label else found
+    return found
+
+
+def agrees(arguments, label, asset, folder):
+    """Measures one configuration, or takes its figures from --resume. Prints one line."""
+    figures = recorded(arguments, label)
+    if figures is None:
+        figures = measure(arguments, asset, folder)
+        if arguments.resume:
+            with open(arguments.resume, "a") as file:
+                file.write(json.dumps({"label": label, "figures": figures}) + "\n")
+    if "problem" in figures:
+        print("%-34s FAILED: %s" % (label, figures["problem"]), flush=True)
+        return False
+    limits, chi2 = figures["chi2_limits"], figures["chi2"]
+    ok = figures["verdict"] == "same" and (limits is None or limits[0] <= chi2 <= limits[1])
     print("%-34s d %+.4f %% (SE %.4f %%; limit %.2f %% + 3 SE)  SE <= %.4f %% (limit .05 %%)  chi2 %.3f (%s)  %-9s %6d spp %5.1f s  %s" %
-          (label, 100 * worst["difference"], 100 * worst["standard_error"], 100 * LIMIT, 100 * widest, result["chi2_per_pixel"],
-           "limits %.2f, %.2f" % (low, high) if counted else "%d pixels, too few for limits" % result["chi2_pixels"],
-           result["verdict"], samples, time.time() - start, "ok" if ok else "FAILED"), flush=True)
+          (label, 100 * figures["d"], 100 * figures["d_se"], 100 * LIMIT, 100 * figures["se"], chi2,
+           "limits %.2f, %.2f" % tuple(limits) if limits else "%d pixels, too few for limits" % figures["chi2_pixels"],
+           figures["verdict"], figures["samples"], figures["seconds"], "ok" if ok else "FAILED"), flush=True)
     return ok

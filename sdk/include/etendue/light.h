@@ -67,12 +67,12 @@ struct Emission {
   enum class Given { flux, intensity, luminance, illuminance, ev, as_file } given = Given::as_file;
   double value = 0;      // photometric or radiometric SI; EV100 for `ev`
   bool radiant = false;  // value is the radiometric twin: efficacy is then required
-  std::optional<double> efficacy_lm_W;
-  std::optional<double> distance_m;  // for `illuminance` of anything but a distant light
+  std::optional<double> efficacy_lm_W{};
+  std::optional<double> distance_m{};  // for `illuminance` of anything but a distant light
   // Multiplies the luminance of flat and mesh lights; the value is that of a white texture. v = 0 is the top row as seen from the side that
   // is emitted towards, +Y up: the viewer looks along +Z, its right is Z x Y = -X. Rect: u = 1/2 - x/width, v = 1/2 - y/height; disk: the
   // same with the diameter; polygon: its bounding rectangle; mesh: its uvs.
-  std::optional<Texture> texture;
+  std::optional<Texture> texture{};
 };
 
 struct RgbColour {
