@@ -1,46 +1,16 @@
-#include "etendue/light.h"
+#include "light_ratio.h"
 
 #include <array>
-#include <cmath>
 
 namespace etendue {
 namespace {
 
-double square(double x) { return x * x; }
-// 1 - cos x without cancellation.
-double versine(double x) { return 2 * square(std::sin(x / 2)); }
-
-double shoelace_area(const std::vector<Vec2d>& points) {
-  double twice = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec2d& a = points[i];
-    const Vec2d& b = points[(i + 1) % points.size()];
-    twice += a.x * b.y - b.x * a.y;
-  }
-  return std::fabs(twice) / 2;
-}
-
 struct Area {
   double mesh_area_m2;
-  double operator()(const SphereShape& s) const { return 4 * pi * square(s.radius); }
-  double operator()(const DiskShape& s) const { return pi * square(s.radius); }
-  double operator()(const RectShape& s) const { return s.width * s.height; }
-  double operator()(const PolygonShape& s) const { return shoelace_area(s.points); }
-  double operator()(const TubeShape& s) const {
-    const double side = 2 * pi * s.radius * s.length;
-    switch (s.caps) {
-      case Caps::round:
-        return side + 4 * pi * square(s.radius);
-      case Caps::flat:
-        return side + 2 * pi * square(s.radius);
-      case Caps::none:
-        break;
-    }
-    return side;
-  }
   double operator()(const MeshShape&) const { return mesh_area_m2; }
-  template <class Other>
-  double operator()(const Other&) const {
+  template <class S>
+  double operator()(const S& shape) const {
+    if constexpr (FormedShape<S>) return double(area_of(shape));
     return -1;  // has no surface
   }
 };
@@ -71,29 +41,10 @@ Result<double> emitting_area(const Light& light, double mesh_area_m2) {
   return area;
 }
 
-// The falloff between the half angles i and o is s^2 with s = (cos t - cos o) / (cos i - cos o), 1 inside i:
-//   2 pi [(1 - cos i) + integral over c of ((c - cos o) / (cos i - cos o))^2 from cos o to cos i] = 2 pi [(1 - cos i) + (cos i - cos o) /
-//   3].
 double solid_angle_of(const SpotShape& spot, FluxConvention convention) {
-  switch (convention) {
-    case FluxConvention::cone:
-      return 2 * pi * versine(spot.outer_rad);
-    case FluxConvention::frostbite_pi:
-      return pi;
-    case FluxConvention::isotropic:
-      return 4 * pi;
-    case FluxConvention::falloff:
-      break;
-  }
-  const double cosine_difference = 2 * std::sin((spot.outer_rad + spot.inner_rad) / 2) * std::sin((spot.outer_rad - spot.inner_rad) / 2);
-  return 2 * pi * (versine(spot.inner_rad) + cosine_difference / 3);
+  return double(solid_angle_of(spot, Conventions{.spot_flux = convention}));
 }
-
-// 4 asin(sin(a/2) sin(b/2)), in the form that keeps its digits near 180 degrees.
-double solid_angle_of(const FrustumShape& frustum) {
-  const double a = frustum.width_rad / 2, b = frustum.height_rad / 2;
-  return 4 * std::atan2(std::sin(a) * std::sin(b), std::hypot(std::cos(a), std::sin(a) * std::cos(b)));
-}
+double solid_angle_of(const FrustumShape& frustum) { return double(solid_angle_of_frustum(frustum)); }
 
 Result<Rgb> rgb_of(const LightColour& colour) {
   if (const auto* temperature = std::get_if<TemperatureColour>(&colour)) {

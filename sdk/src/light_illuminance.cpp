@@ -37,9 +37,12 @@ double rim(double radius, double h, double d) {
 
 }  // namespace
 
-double facing_factor(const SphereShape& sphere, double d) { return pi * square(sphere.radius / d); }
+Wide facing_factor(const SphereShape& sphere, double d) { return wide_pi * squared(Wide(sphere.radius) / d); }
 
-double facing_factor(const DiskShape& disk, double d) { return pi * square(disk.radius / std::hypot(disk.radius, d)); }
+Wide facing_factor(const DiskShape& disk, double d) {
+  // r^2 / (r^2 + d^2) = 1 / (1 + (d/r)^2): no square of a size alone.
+  return wide_pi / (1 + squared(Wide(d) / disk.radius));
+}
 
 // Four edges, each at distance hypot(d, half width) from the receiver and seen under 2 atan(half height / that distance).
 double facing_factor(const RectShape& rect, double d) {

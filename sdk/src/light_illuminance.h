@@ -2,13 +2,14 @@
 #pragma once
 
 #include "etendue/light.h"
+#include "wide.h"
 
 namespace etendue {
 
 // Illuminance over luminance (steradians of projected solid angle) at (0, 0, -d) in the light's frame, on a plane facing the light's
 // origin; exact for every shape here, near or far. For tubes the point is opposite the middle. d lies outside of the shape.
-double facing_factor(const SphereShape& sphere, double d);
-double facing_factor(const DiskShape& disk, double d);
+Wide facing_factor(const SphereShape& sphere, double d);
+Wide facing_factor(const DiskShape& disk, double d);
 double facing_factor(const RectShape& rect, double d);
 double facing_factor(const PolygonShape& polygon, double d);
 double facing_factor(const TubeShape& tube, double d);

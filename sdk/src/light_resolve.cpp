@@ -1,5 +1,5 @@
-// Units to what is emitted: one small rule for each kind of shape.
-#include "light_illuminance.h"
+// Units to what is emitted: what was given over what one unit of the light's own quantity would amount to (light_ratio.h).
+#include "light_ratio.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@ namespace {
 using Given = Emission::Given;
 using Kind = Resolved::Kind;
 
-double square(double x) { return x * x; }
 bool finite(const Rgb& c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); }
 
 const char* name_of(Given given, bool radiant) {
@@ -58,58 +57,23 @@ class Resolver {
     return e_.value * *e_.efficacy_lm_W;
   }
 
-  Result<White> operator()(const PointShape&) const { return punctual(4 * pi, 4 * pi); }
-  Result<White> operator()(const SpotShape& s) const {
-    return punctual(solid_angle_of(s, light_.flux_convention), solid_angle_of(s, FluxConvention::falloff));
+  template <PunctualShape S>
+  Result<White> operator()(const S& shape) const {
+    return own(Kind::intensity, shape, 0);
   }
-  Result<White> operator()(const FrustumShape& s) const { return punctual(solid_angle_of(s), solid_angle_of(s)); }
+  Result<White> operator()(const LineShape& shape) const { return own(Kind::line, shape, 0); }
+  template <FormedShape S>
+  Result<White> operator()(const S& shape) const {
+    const Result<double> area_m2 = emitting_area(light_);
+    if (!area_m2) return area_m2.error();
+    return own(Kind::luminance, shape, *area_m2);
+  }
+  Result<White> operator()(const MeshShape&) const { return own(Kind::luminance, SurfaceOfArea{mesh_area_m2_}, mesh_area_m2_); }
 
-  // A disk of angular radius a around the normal gives E = L pi sin^2(a).
-  Result<White> operator()(const DistantShape& s) const {
-    const double projected = pi * square(std::sin(s.diameter_rad / 2));
-    switch (e_.given) {
-      case Given::illuminance:
-        if (projected > 0) return White{Kind::luminance, v() / projected, 0, 0};
-        return White{Kind::illuminance, v(), 0, 0};
-      case Given::luminance:
-      case Given::ev:
-        if (projected > 0) return White{Kind::luminance, luminance_given(), 0, 0};
-        return error("SIZE_MISSING", fmt::format("{} needs an angular_diameter greater than zero", given()));
-      default:
-        return unsuitable("give its illuminance");
-    }
-  }
-
-  Result<White> operator()(const SphereShape& s) const { return area(pi * square(s.radius), s.radius, &s); }
-  Result<White> operator()(const DiskShape& s) const { return area(pi * square(s.radius), 0, &s); }
-  Result<White> operator()(const RectShape& s) const { return area(s.width * s.height, 0, &s); }
-  Result<White> operator()(const PolygonShape& s) const {
-    const Result<double> face = emitting_area(light_);
-    return face ? area(*face, 0, &s) : Result<White>(face.error());
-  }
-  // Seen perpendicularly a tube is a rectangle, with round caps a stadium.
-  Result<White> operator()(const TubeShape& s) const {
-    return area(2 * s.radius * s.length + (s.caps == Caps::round ? pi * square(s.radius) : 0), s.radius, &s);
-  }
-  Result<White> operator()(const MeshShape&) const {
-    if (e_.given == Given::intensity || e_.given == Given::illuminance) return unsuitable("give its flux or its luminance");
-    return area<SphereShape>(0, 0, nullptr);
-  }
-
-  // I(theta) = I sin(theta) over the sphere: flux = 2 pi I integral of sin^2 = pi^2 I.
-  Result<White> operator()(const LineShape& s) const {
-    if (!(s.length > 0)) return error("SIZE_MISSING", "expected a length greater than zero");
-    double intensity = v();
-    if (e_.given == Given::flux) {
-      intensity = v() / square(pi);
-    } else if (e_.given == Given::illuminance) {
-      const Result<double> d = distance_beyond(0);
-      if (!d) return d.error();
-      intensity = v() / facing_factor(s, *d);
-    } else if (e_.given != Given::intensity) {
-      return unsuitable("a line has no surface; give its flux, or make it a tube");
-    }
-    return White{Kind::line, intensity, intensity * square(pi), 0};
+  // A true direction has no luminance.
+  Result<White> operator()(const DistantShape& shape) const {
+    if (e_.given == Given::illuminance && shape.diameter_rad == 0) return White{Kind::illuminance, v(), 0, 0};
+    return own(Kind::luminance, shape, 0);
   }
 
   // The file's own candelas, times colour and filter; a flux is what the file is to be rescaled to.
@@ -119,20 +83,10 @@ class Resolver {
     return unsuitable("its file gives the candelas; only flux rescales them");
   }
 
-  // A plane under a uniform sky has E = pi L.
-  Result<White> operator()(const EnvironmentShape& s) const {
-    switch (e_.given) {
-      case Given::as_file:
-        if (s.image) return White{Kind::luminance, 1, 0, 0};
-        return error("EMISSION_MISSING", "an environment without an image needs a luminance or an illuminance");
-      case Given::luminance:
-      case Given::ev:
-        return White{Kind::luminance, luminance_given(), 0, 0};
-      case Given::illuminance:
-        return White{Kind::luminance, v() / pi, 0, 0};
-      default:
-        return unsuitable("give its luminance or its illuminance");
-    }
+  Result<White> operator()(const EnvironmentShape& shape) const {
+    if (e_.given != Given::as_file) return own(Kind::luminance, shape, 0);
+    if (shape.image) return White{Kind::luminance, 1, 0, 0};
+    return error("EMISSION_MISSING", "an environment without an image needs a luminance or an illuminance");
   }
 
   Error error(const char* code, const std::string& text) const {
@@ -142,67 +96,43 @@ class Resolver {
  private:
   const char* given() const { return name_of(e_.given, e_.radiant); }
   double v() const { return e_.radiant ? e_.value * *e_.efficacy_lm_W : e_.value; }
-  double luminance_given() const { return e_.given == Given::ev ? luminance_of_ev100(e_.value) : v(); }
-  Error unsuitable(const char* what_to_do) const {
+  Error unsuitable(const std::string& what_to_do) const {
     if (e_.given == Given::as_file) return error("EMISSION_MISSING", "expected an emission, found none");
     Error e = error("UNIT_UNSUITABLE", fmt::format("{} says nothing about this shape", given()));
     e.hint = what_to_do;
     return e;
   }
-  // The distance beside an illuminance, from the light's origin; the light reaches `nearest` towards it.
-  Result<double> distance_beyond(double nearest) const {
-    if (!e_.distance_m) return error("DISTANCE_MISSING", fmt::format("{} needs the distance at which it was measured", given()));
-    if (!std::isfinite(*e_.distance_m) || !(*e_.distance_m > nearest))
-      return error("NUMBER_INVALID", fmt::format("expected a distance greater than {} m, found {} m", nearest, *e_.distance_m));
-    return *e_.distance_m;
-  }
 
-  // Flux spread over `given_sr` becomes intensity on the axis, which sends out `emitted_sr` times as much. E = I / d^2.
-  Result<White> punctual(double given_sr, double emitted_sr) const {
-    double intensity = v();
-    if (e_.given == Given::flux) {
-      if (!(given_sr > 0)) return error("SIZE_MISSING", "flux needs an opening angle greater than zero");
-      intensity = v() / given_sr;
-    } else if (e_.given == Given::illuminance) {
-      const Result<double> d = distance_beyond(0);
-      if (!d) return d.error();
-      intensity = v() * square(*d);
-    } else if (e_.given != Given::intensity) {
-      return unsuitable("it has no surface; give its flux or its intensity, or a shape with a size");
-    }
-    return White{Kind::intensity, intensity, intensity * emitted_sr, 0};
-  }
-
-  // Uniform luminance L on all sides that emit: flux = pi L A (Lambert); I = L times the area seen along the axis.
-  template <class S>
-  Result<White> area(double face_m2, double nearest, const S* shape) const {
-    const Result<double> one_side = emitting_area(light_, mesh_area_m2_);
-    if (!one_side) {
-      if (!std::holds_alternative<MeshShape>(light_.shape) || e_.given == Given::flux) return one_side.error();
-    }
-    const double area_m2 = one_side ? *one_side * (emits_both_sides(light_) ? 2 : 1) : 0;
-    double luminance = 0;
+  Dimension dimension() const {
     switch (e_.given) {
       case Given::flux:
-        luminance = v() / (pi * area_m2);
-        break;
+        return Dimension::luminous_flux;
       case Given::intensity:
-        luminance = v() / face_m2;
-        break;
-      case Given::illuminance: {
-        const Result<double> d = distance_beyond(nearest);
-        if (!d) return d.error();
-        luminance = v() / facing_factor(*shape, *d);
-        break;
-      }
-      case Given::luminance:
-      case Given::ev:
-        luminance = luminance_given();
-        break;
-      case Given::as_file:
-        return unsuitable("");
+        return Dimension::luminous_intensity;
+      case Given::illuminance:
+        return Dimension::illuminance;
+      default:
+        return Dimension::luminance;
     }
-    return White{Kind::luminance, luminance, pi * luminance * area_m2, area_m2};
+  }
+
+  template <class S>
+  Result<White> own(Kind kind, const S& shape, double side_m2) const {
+    if (e_.given == Given::as_file) return unsuitable("");
+    Conventions conventions{.two_sided = light_.two_sided, .spot_flux = light_.flux_convention};
+    const Result<Wide> divisor = ratio_of(shape, dimension(), conventions, e_.distance_m);
+    if (!divisor) return of_this_light(divisor.error());
+    const double value(Wide(e_.given == Given::ev ? luminance_of_ev100(e_.value) : v()) / *divisor);
+    // What is sent out is the integral over the falloff, whatever convention the flux was given in.
+    conventions.spot_flux = FluxConvention::falloff;
+    const Result<Wide> flux = ratio_of(shape, Dimension::luminous_flux, conventions, {});
+    return White{kind, value, flux ? double(value * *flux) : 0, side_m2 * (emits_both_sides(light_) ? 2 : 1)};
+  }
+  Error of_this_light(const Error& found) const {
+    if (found.code == "UNIT_UNSUITABLE") return unsuitable(found.text + "; " + found.hint);
+    Error named = error(found.code.c_str(), found.code == "NUMBER_INVALID" ? found.text : fmt::format("{}: {}", given(), found.text));
+    named.hint = found.hint;
+    return named;
   }
 
   const Light& light_;
