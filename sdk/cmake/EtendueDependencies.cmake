@@ -24,6 +24,10 @@ if(NOT hwy_FOUND)
   etendue_missing("Highway (>= 1.0.3)" "libhwy-dev")
 endif()
 
+if(ETENDUE_CORE_ONLY)
+  return()
+endif()
+
 find_package(CLI11 QUIET)
 if(NOT CLI11_FOUND)
   etendue_missing("CLI11" "libcli11-dev")

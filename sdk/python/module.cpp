@@ -1,0 +1,11 @@
+// etendue._core: plain functions of numbers and arrays. Names, docstrings, text and broadcasting are the Python half's.
+#include "module.h"
+
+NB_MODULE(_core, m) {
+  using namespace etendue::python;
+  m.doc() =
+      "The compiled half of etendue: functions of numbers in SI units and of contiguous arrays of them. Use the package's own functions.";
+  bind_quantities(m);
+  bind_colour(m);
+  bind_camera(m);
+}

@@ -1,0 +1,12 @@
+// One function for each C++ header that Python sees.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace etendue::python {
+
+void bind_quantities(nanobind::module_& m);
+void bind_colour(nanobind::module_& m);
+void bind_camera(nanobind::module_& m);
+
+}  // namespace etendue::python

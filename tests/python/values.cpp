@@ -1,0 +1,71 @@
+// What the C++ library says, bit for bit: "name[:setting] argument... = result...", numbers in hexadecimal. tests/python/test_same_numbers.py asks the
+// Python module for the same.
+#include "etendue/camera.h"
+#include "etendue/colour.h"
+#include "etendue/units.h"
+
+#include <cstdio>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace {
+
+using namespace etendue;
+
+void print(std::string_view name, std::initializer_list<double> arguments, std::initializer_list<double> results) {
+  std::printf("%s", std::string(name).c_str());
+  for (const double x : arguments) std::printf(" %a", x);
+  std::printf(" =");
+  for (const double x : results) std::printf(" %a", x);
+  std::printf("\n");
+}
+
+void temperatures() {
+  for (double t = 501; t < 100000; t *= 1.037) {
+    const Chromaticity xy = *planckian(t);
+    print("planckian", {t}, {xy.x, xy.y});
+    print("mired_of", {t}, {*mired_of(t)});
+    print("shifted_by_mired", {t, -5}, {*shifted_by_mired(t, -5)});
+    const Rgb rgb = to_rgb(xy);
+    print("to_rgb", {xy.x, xy.y}, {rgb.x, rgb.y, rgb.z});
+    const Chromaticity back = to_chromaticity(rgb);
+    print("chromaticity_of_rgb", {rgb.x, rgb.y, rgb.z}, {back.x, back.y});
+    for (const double duv : {-0.03, 0.0, 0.0123}) {
+      const Chromaticity beside = *to_chromaticity(ColourTemperature{t, duv});
+      print("to_chromaticity", {t, duv}, {beside.x, beside.y});
+      if (const Result<ColourTemperature> found = to_colour_temperature(beside))
+        print("to_colour_temperature", {beside.x, beside.y}, {found->kelvin, found->duv});
+    }
+    if (t > 4000 && t < 25000) {
+      const Chromaticity d = *daylight(t);
+      print("daylight", {t}, {d.x, d.y});
+    }
+  }
+}
+
+void exposures() {
+  for (const Calibration& c : calibrations())
+    for (double ev = -9.7; ev < 22; ev += 1.3) {
+      const std::string of(c.name);
+      const double l = luminance_of_ev100(ev, c);
+      print("luminance_of_ev100:" + of, {ev}, {l});
+      print("exposure_of_ev100:" + of, {ev}, {exposure_of_ev100(ev, c)});
+      print("ev100_of_luminance:" + of, {l}, {*ev100_of_luminance(l, c)});
+    }
+}
+
+void texts() {
+  for (const char* text : {"1500 lm", "20 knit", "7.3 in", "47.3 deg", "137 mired", "3.7 fc", "1.1 fL", "-3.3 EV"}) {
+    std::printf("quantity %s", text);
+    std::printf(" = %a\n", parse_quantity(text)->si);
+  }
+}
+
+}  // namespace
+
+int main() {
+  temperatures();
+  exposures();
+  texts();
+}
