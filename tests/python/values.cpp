@@ -1,5 +1,5 @@
-// What the C++ library says, bit for bit: "name[:setting] argument... = result...", numbers in hexadecimal. tests/python/test_same_numbers.py asks the
-// Python module for the same.
+// What the C++ library says, bit for bit: "name[:setting] argument... = result...", numbers in hexadecimal.
+// tests/python/test_same_numbers.py asks the Python module for the same.
 #include "etendue/camera.h"
 #include "etendue/colour.h"
 #include "etendue/units.h"
