@@ -23,26 +23,42 @@ using I = hn::RebindToSigned<F>;
 using VF = hn::Vec<F>;
 using VU = hn::Vec<U>;
 
-VF power_of_two(VU biased_exponent) { return hn::BitCast(F(), hn::ShiftLeft<23>(biased_exponent)); }
-VU truncated(VF x) { return hn::BitCast(U(), hn::ConvertTo(I(), x)); }
+HWY_INLINE VF power_of_two(VU biased_exponent) { return hn::BitCast(F(), hn::ShiftLeft<23>(biased_exponent)); }
+HWY_INLINE VU truncated(VF x) { return hn::BitCast(U(), hn::ConvertTo(I(), x)); }
 
-// Channels of one vector that are outside of 0 to largest, with what is stored of them. The usual vector has none and costs a comparison.
-VF admitted(VF x, float largest, PackCounts& counts) {
+// Floats from 0 to `largest` are those whose bits, as a whole number, are at most its bits: negative ones and NaN are above.
+HWY_INLINE bool all_within(VU bits, float largest) {
+  const U u;
+  return HWY_LIKELY(hn::AllFalse(u, hn::Gt(bits, hn::BitCast(u, hn::Set(F(), largest)))));
+}
+// What is stored of channels that are not all within 0 and `largest`, with their counts. Minus zero is zero.
+HWY_INLINE VF admitted(VF x, float largest, PackCounts& counts) {
   const F f;
   const VF zero = hn::Zero(f), most = hn::Set(f, largest);
-  // Minus zero is zero: its sign is taken off.
-  if (HWY_LIKELY(hn::AllTrue(f, hn::And(hn::Ge(x, zero), hn::Le(x, most))))) return hn::Abs(x);
   counts.nan += hn::CountTrue(f, hn::Not(hn::Eq(x, x)));  // Ne is false of NaN on some
   counts.negative += hn::CountTrue(f, hn::Lt(x, zero));
   counts.overflow += hn::CountTrue(f, hn::Gt(x, most));
-  return hn::Abs(hn::Min(hn::IfThenElseZero(hn::Gt(x, zero), x), most));  // NaN is not above zero
+  return hn::Min(hn::IfThenElseZero(hn::Gt(x, zero), x), most);  // NaN is not above zero
+}
+
+struct Pixel {
+  VF r, g, b;
+  HWY_INLINE VU brightest_bits() const {
+    const U u;
+    return hn::Max(hn::Max(hn::BitCast(u, r), hn::BitCast(u, g)), hn::BitCast(u, b));
+  }
+};
+HWY_INLINE Pixel load(const Vec3f* from) {
+  Pixel p;
+  hn::LoadInterleaved3(F(), &from->x, p.r, p.g, p.b);
+  return p;
 }
 
 // x from 0 to the largest finite number of a float with 5 bits of exponent and M of mantissa. Above 2^-14: adding half a unit of the last
 // place that stays, less one bit if that is even, carries where nearest-even rounds up; exponents are biased by 127 and 15. Below: in
 // x + 2^(9 - M) a unit of the last place is that of these numbers, and the adder rounds to nearest-even.
 template <int M>
-VU pack_small_float(VF x) {
+HWY_INLINE VU pack_small_float(VF x) {
   const F f;
   const U u;
   constexpr int shift = 23 - M;
@@ -57,7 +73,7 @@ VU pack_small_float(VF x) {
 
 // The inverse. Numbers without hidden bit are whole multiples of 2^(-14 - M); exponent 31 becomes 255, infinity and NaN.
 template <int M>
-VF unpack_small_float(VU code) {
+HWY_INLINE VF unpack_small_float(VU code) {
   const F f;
   const U u;
   const VU exponent = hn::ShiftRight<M>(code);
@@ -71,15 +87,13 @@ VF unpack_small_float(VU code) {
 
 // Runs `vector` on as many elements as fill whole vectors and `scalar` on the rest, by index.
 template <class Vector, class Scalar>
-void each(std::size_t count, Vector vector, Scalar scalar) {
+HWY_INLINE void each(std::size_t count, Vector vector, Scalar scalar) {
   const std::size_t lanes = hn::Lanes(F());
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) vector(i);
   for (; i < count; ++i) scalar(i);
 }
 
-const float* floats(const Vec3f* p) { return &p->x; }
-float* floats(Vec3f* p) { return &p->x; }
 static_assert(sizeof(Vec3f) == 12 && sizeof(Bytes4) == 4);
 
 PackCounts pack_half(const float* from, std::uint16_t* to, std::size_t count) {
@@ -127,10 +141,10 @@ PackCounts pack_r11g11b10f(const Vec3f* from, std::uint32_t* to, std::size_t cou
   each(
       count,
       [&](std::size_t i) HWY_ATTR {
-        VF r, g, b;
-        hn::LoadInterleaved3(F(), floats(from + i), r, g, b);
-        const VU red = pack_small_float<6>(admitted(r, 65024, counts)), green = pack_small_float<6>(admitted(g, 65024, counts)),
-                 blue = pack_small_float<5>(admitted(b, 64512, counts));
+        Pixel p = load(from + i);
+        if (!all_within(hn::Max(hn::BitCast(U(), p.r), hn::BitCast(U(), p.g)), 65024) || !all_within(hn::BitCast(U(), p.b), 64512))
+          p = {admitted(p.r, 65024, counts), admitted(p.g, 65024, counts), admitted(p.b, 64512, counts)};
+        const VU red = pack_small_float<6>(p.r), green = pack_small_float<6>(p.g), blue = pack_small_float<5>(p.b);
         hn::StoreU(hn::Or(hn::Or(red, hn::ShiftLeft<11>(green)), hn::ShiftLeft<22>(blue)), U(), to + i);
       },
       [&](std::size_t i) { to[i] = etendue::pack_r11g11b10f(vec_cast<double>(from[i]), counts); });
@@ -143,7 +157,7 @@ void unpack_r11g11b10f(const std::uint32_t* from, Vec3f* to, std::size_t count) 
       [&](std::size_t i) HWY_ATTR {
         const VU code = hn::LoadU(u, from + i), low = hn::Set(u, 0x7ff);
         hn::StoreInterleaved3(unpack_small_float<6>(hn::And(code, low)), unpack_small_float<6>(hn::And(hn::ShiftRight<11>(code), low)),
-                              unpack_small_float<5>(hn::ShiftRight<22>(code)), F(), floats(to + i));
+                              unpack_small_float<5>(hn::ShiftRight<22>(code)), F(), &to[i].x);
       },
       [&](std::size_t i) { to[i] = vec_cast<float>(etendue::unpack_r11g11b10f(from[i])); });
 }
@@ -156,18 +170,18 @@ PackCounts pack_rgb9e5(const Vec3f* from, std::uint32_t* to, std::size_t count) 
   each(
       count,
       [&](std::size_t i) HWY_ATTR {
-        VF r, g, b;
-        hn::LoadInterleaved3(F(), floats(from + i), r, g, b);
-        r = admitted(r, 65408, counts);
-        g = admitted(g, 65408, counts);
-        b = admitted(b, 65408, counts);
-        const VF max = hn::Max(hn::Max(r, g), b);
-        const VU biased = hn::ShiftRight<23>(hn::Add(hn::BitCast(u, max), hn::Set(u, 1U << 14)));
+        Pixel p = load(from + i);
+        VU brightest = p.brightest_bits();
+        if (!all_within(brightest, 65408)) {
+          p = {admitted(p.r, 65408, counts), admitted(p.g, 65408, counts), admitted(p.b, 65408, counts)};
+          brightest = p.brightest_bits();
+        }
+        const VU biased = hn::ShiftRight<23>(hn::Add(brightest, hn::Set(u, 1U << 14)));
         const VU exponent = hn::Sub(hn::Max(biased, hn::Set(u, 127 - 16)), hn::Set(u, 127 - 16));
         const VF twice_scale = power_of_two(hn::Sub(hn::Set(u, 127 + 25), exponent));
         const auto mantissa = [&](VF x) HWY_ATTR { return hn::ShiftRight<1>(hn::Add(truncated(hn::Mul(x, twice_scale)), hn::Set(u, 1))); };
-        const VU red_green = hn::Or(mantissa(r), hn::ShiftLeft<9>(mantissa(g)));
-        hn::StoreU(hn::Or(red_green, hn::Or(hn::ShiftLeft<18>(mantissa(b)), hn::ShiftLeft<27>(exponent))), u, to + i);
+        const VU red_green = hn::Or(mantissa(p.r), hn::ShiftLeft<9>(mantissa(p.g)));
+        hn::StoreU(hn::Or(red_green, hn::Or(hn::ShiftLeft<18>(mantissa(p.b)), hn::ShiftLeft<27>(exponent))), u, to + i);
       },
       [&](std::size_t i) { to[i] = etendue::pack_rgb9e5(vec_cast<double>(from[i]), counts); });
   return counts;
@@ -183,7 +197,7 @@ void unpack_rgb9e5(const std::uint32_t* from, Vec3f* to, std::size_t count) {
         const auto channel = [&](VU shifted) HWY_ATTR {
           return hn::Mul(hn::ConvertTo(f, hn::BitCast(I(), hn::And(shifted, hn::Set(u, 0x1ff)))), unit);
         };
-        hn::StoreInterleaved3(channel(code), channel(hn::ShiftRight<9>(code)), channel(hn::ShiftRight<18>(code)), f, floats(to + i));
+        hn::StoreInterleaved3(channel(code), channel(hn::ShiftRight<9>(code)), channel(hn::ShiftRight<18>(code)), f, &to[i].x);
       },
       [&](std::size_t i) { to[i] = vec_cast<float>(etendue::unpack_rgb9e5(from[i])); });
 }
@@ -198,23 +212,24 @@ PackCounts pack_rgbe(const Vec3f* from, Bytes4* to, std::size_t count) {
   each(
       count,
       [&](std::size_t i) HWY_ATTR {
-        VF r, g, b;
-        hn::LoadInterleaved3(F(), floats(from + i), r, g, b);
+        Pixel p = load(from + i);
         PackCounts here;
-        r = admitted(r, below_limit, here);
-        g = admitted(g, below_limit, here);
-        b = admitted(b, below_limit, here);
-        const VU bits = hn::BitCast(u, hn::Max(hn::Max(r, g), b)), biased = hn::ShiftRight<23>(bits);
-        const auto lit = hn::Gt(bits, hn::Zero(u));
+        VU brightest = p.brightest_bits();
+        if (!all_within(brightest, below_limit)) {
+          p = {admitted(p.r, below_limit, here), admitted(p.g, below_limit, here), admitted(p.b, below_limit, here)};
+          brightest = p.brightest_bits();
+        }
+        const VU biased = hn::ShiftRight<23>(brightest);
+        const auto lit = hn::Gt(brightest, hn::Zero(u));
         if (HWY_UNLIKELY(!hn::AllFalse(u, hn::And(lit, hn::Lt(biased, hn::Set(u, 9)))))) {
           for (std::size_t lane = 0; lane < hn::Lanes(u); ++lane) one(i + lane);
           return;
         }
         counts += here;
         const VF scale = power_of_two(hn::Sub(hn::Set(u, 261), biased));
-        const VU red_green = hn::Or(truncated(hn::Mul(r, scale)), hn::ShiftLeft<8>(truncated(hn::Mul(g, scale))));
+        const VU red_green = hn::Or(truncated(hn::Mul(p.r, scale)), hn::ShiftLeft<8>(truncated(hn::Mul(p.g, scale))));
         const VU exponent = hn::Add(biased, hn::Set(u, 2));
-        const VU code = hn::Or(red_green, hn::Or(hn::ShiftLeft<16>(truncated(hn::Mul(b, scale))), hn::ShiftLeft<24>(exponent)));
+        const VU code = hn::Or(red_green, hn::Or(hn::ShiftLeft<16>(truncated(hn::Mul(p.b, scale))), hn::ShiftLeft<24>(exponent)));
         // Lanes hold the lowest byte first, as the machines that have wide instructions do.
         HWY_ALIGN std::uint32_t lanes[hn::MaxLanes(U())];
         hn::Store(hn::IfThenElseZero(lit, code), u, lanes);
@@ -241,7 +256,7 @@ void unpack_rgbe(const Bytes4* from, Vec3f* to, std::size_t count) {
           const VF m = hn::ConvertTo(f, hn::BitCast(I(), hn::And(shifted, hn::Set(u, 0xff))));
           return hn::IfThenElseZero(lit, hn::Mul(hn::Mul(hn::Add(m, hn::Set(f, 0.5F)), first), second));
         };
-        hn::StoreInterleaved3(channel(code), channel(hn::ShiftRight<8>(code)), channel(hn::ShiftRight<16>(code)), f, floats(to + i));
+        hn::StoreInterleaved3(channel(code), channel(hn::ShiftRight<8>(code)), channel(hn::ShiftRight<16>(code)), f, &to[i].x);
       },
       [&](std::size_t i) { to[i] = vec_cast<float>(etendue::unpack_rgbe(from[i])); });
 }
