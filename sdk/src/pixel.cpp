@@ -163,7 +163,7 @@ Rgb unpack_logluv(std::uint32_t code) {
 }
 
 std::uint32_t pack_rgb10a2(const Rgb& rgb, double alpha, PackCounts& counts) {
-  const auto level = [&](double x, double levels) { return static_cast<std::uint32_t>(admitted(x, 1, counts) * levels + 0.5); };
+  const auto level = [&](double x, double levels) { return static_cast<std::uint32_t>(round_half_up(admitted(x, 1, counts) * levels)); };
   return level(rgb.x, 1023) | level(rgb.y, 1023) << 10 | level(rgb.z, 1023) << 20 | level(alpha, 3) << 30;
 }
 Rgb unpack_rgb10a2(std::uint32_t code) {

@@ -22,6 +22,7 @@ const double not_a_number = std::nan("");
 // The finite numbers of a float with 5 bits of exponent and m of mantissa, in the order of their codes: 0, then 31 octaves of 2^m numbers.
 std::vector<double> small_floats(int m) {
   std::vector<double> numbers;
+  numbers.reserve(31U << m);
   for (int k = 0; k < 1 << m; ++k) numbers.push_back(k * std::pow(2.0, -14 - m));
   for (int e = -14; e <= 15; ++e)
     for (int k = 0; k < 1 << m; ++k) numbers.push_back((1 + k / std::pow(2.0, m)) * std::pow(2.0, e));
@@ -100,6 +101,7 @@ template <class Code, class Pack, class PackAll>
 void expect_batch_is_scalar(const std::vector<Vec3f>& pixels, Pack pack, PackAll pack_all) {
   PackCounts expected_counts;
   std::vector<Code> expected;
+  expected.reserve(pixels.size());
   for (const Vec3f& p : pixels) expected.push_back(pack(vec_cast<double>(p), expected_counts));
   on_each_instruction_set([&] {
     std::vector<Code> codes(pixels.size());
@@ -165,6 +167,7 @@ TEST(Half, SpansAreTheScalarOnEveryInstructionSet) {
   for (std::uint32_t high = 0; high < 65536; ++high) x.push_back(std::bit_cast<float>(high << 16));
   PackCounts expected_counts;
   std::vector<std::uint16_t> expected;
+  expected.reserve(x.size());
   for (const float f : x) expected.push_back(pack_half(f, expected_counts));
   std::vector<std::uint16_t> every_code(65536 + 5);
   for (std::size_t i = 0; i < every_code.size(); ++i) every_code[i] = static_cast<std::uint16_t>(i);
