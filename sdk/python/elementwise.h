@@ -94,7 +94,7 @@ using ArrayAgain = Array<T>;
 template <class... Extra, class F, std::size_t... I, std::size_t... J>
 void def_elementwise(nb::module_& m, const char* name, F f, const std::array<const char*, sizeof...(I) + sizeof...(J)>& names,
                      std::index_sequence<I...>, std::index_sequence<J...>) {
-  using Row = decltype(row_of(*as_result(f(Double<I>{}..., Extra{}...))));
+  using Row = decltype(row_of(*as_result(f(Double<I>{}..., std::declval<const Extra&>()...))));
   const auto row = [f](Double<I>... x, const Extra&... extra) -> Result<Row> {
     const auto result = as_result(f(x..., extra...));
     if (!result) return result.error();

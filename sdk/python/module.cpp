@@ -6,6 +6,7 @@ NB_MODULE(_core, m) {
   m.doc() =
       "The compiled half of etendue: functions of numbers in SI units and of contiguous arrays of them. Use the package's own functions.";
   bind_quantities(m);
+  bind_conversion(m);
   bind_colour(m);
   bind_camera(m);
 }

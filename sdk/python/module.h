@@ -6,6 +6,7 @@
 namespace etendue::python {
 
 void bind_quantities(nanobind::module_& m);
+void bind_conversion(nanobind::module_& m);
 void bind_colour(nanobind::module_& m);
 void bind_camera(nanobind::module_& m);
 

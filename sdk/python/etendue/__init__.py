@@ -1,10 +1,12 @@
 """Physical lights: quantities with their units, colour temperature, cameras. Exact, and the same numbers as the C++ library bit for bit.
 
     >>> import etendue
+    >>> etendue.convert("1500 lm", "nit", shape=etendue.Sphere("15 cm"))
+    1688.686394038963
     >>> etendue.quantity("1.5 klx")
     quantity('1500 lx')
     >>> etendue.colour.planckian(2856.0)
-    Chromaticity(x=0.44753506298853964, y=0.4074278252447847)
+    Chromaticity(x=0.44753514422783053, y=0.40742828970434986)
     >>> sunny = etendue.camera.CameraSettings(f_number=16, shutter_s=1 / 125, iso=100)
     >>> round(etendue.camera.ev100(sunny), 3)
     14.966
@@ -13,7 +15,46 @@ Whatever cannot be answered is an etendue.Error with code, text, hint, field.
 """
 
 from . import camera, colour
+from .conversion import convert
 from .errors import Error
 from .quantity import Quantity, dimensions, quantity
+from .shapes import (
+    Disk,
+    Distant,
+    Environment,
+    Frustum,
+    Line,
+    Mesh,
+    Photometric,
+    Point,
+    Polygon,
+    Rect,
+    Shape,
+    Sphere,
+    Spot,
+    Tube,
+)
 
-__all__ = ["Error", "Quantity", "camera", "colour", "dimensions", "quantity"]
+__all__ = [
+    "Disk",
+    "Distant",
+    "Environment",
+    "Error",
+    "Frustum",
+    "Line",
+    "Mesh",
+    "Photometric",
+    "Point",
+    "Polygon",
+    "Quantity",
+    "Rect",
+    "Shape",
+    "Sphere",
+    "Spot",
+    "Tube",
+    "camera",
+    "colour",
+    "convert",
+    "dimensions",
+    "quantity",
+]

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import Error
 
+Array = TypeVar("Array", NDArray[np.float64], NDArray[np.float32])
 FloatArray = NDArray[np.float64] | NDArray[np.float32]
 # A number gives a number, an array an array of the same precision.
 Number = TypeVar("Number", float, NDArray[np.float64], NDArray[np.float32])
@@ -25,6 +26,14 @@ def as_array(value: ArrayLike, name: str) -> FloatArray:
 
 def elementwise(kernel: Callable[..., Any], *extra: object, **arguments: ArrayLike) -> Any:
     """kernel(arguments..., extra...): of numbers, or of arrays that broadcast with each other as NumPy's do."""
+    try:
+        return _elementwise(kernel, extra, arguments)
+    except Error as error:
+        error.field = error.field or (next(iter(arguments)) if len(arguments) == 1 else "")
+        raise
+
+
+def _elementwise(kernel: Callable[..., Any], extra: tuple[object, ...], arguments: dict[str, ArrayLike]) -> Any:
     numbers = arguments.values()
     if all(type(x) is float for x in numbers):
         return kernel(*numbers, *extra)
@@ -47,7 +56,11 @@ def rowwise(kernel: Callable[..., Any], width: int, name: str, rows: ArrayLike, 
     array = as_array(rows, name)
     if array.ndim == 0 or array.shape[-1] != width:
         raise Error("SHAPE_MISMATCH", f"expected {name} of {width} numbers in its last extent, found shape {array.shape}", field=name)
-    result = kernel(np.ascontiguousarray(array))
+    try:
+        result = kernel(np.ascontiguousarray(array))
+    except Error as error:
+        error.field = error.field or name
+        raise
     if array.ndim > 1:
         return result
     return wrap(*result.tolist()) if result.ndim else float(result)

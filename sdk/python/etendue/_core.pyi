@@ -2,6 +2,7 @@
 The compiled half of etendue: functions of numbers in SI units and of contiguous arrays of them. Use the package's own functions.
 """
 
+from collections.abc import Sequence
 from typing import Annotated, overload
 
 import numpy
@@ -16,6 +17,20 @@ def parse_quantity(text: str) -> tuple[int, float]:
 
 def quantity_text(dimension: int, si: float) -> str:
     """The shortest text that reads back as the same double."""
+
+class Conversion:
+    """One conversion, prepared for any number of values in SI."""
+
+def conversion(given: int, wanted: int, shape: tuple[str, Sequence[float], str] | None, two_sided: bool, spot_flux: str, spot_falloff: str, given_distance_m: float | None, wanted_distance_m: float | None, efficacy_lm_W: float | None, meter_k: float, meter_c: float) -> Conversion: ...
+
+@overload
+def converted(si: float, conversion: Conversion) -> float: ...
+
+@overload
+def converted(si: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], conversion: Conversion) -> Annotated[NDArray[numpy.float64], dict(order='C')]: ...
+
+@overload
+def converted(si: Annotated[NDArray[numpy.float32], dict(order='C', device='cpu', writable=False)], conversion: Conversion) -> Annotated[NDArray[numpy.float32], dict(order='C')]: ...
 
 @overload
 def planckian(kelvin: float) -> tuple[float, float]: ...

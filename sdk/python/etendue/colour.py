@@ -5,15 +5,10 @@ named tuple, an array an array of the same precision, with a last extent of 2 or
 TEMPERATURE_OUT_OF_RANGE, DUV_OUT_OF_RANGE, NOT_NEAR_LOCUS.
 """
 
-from typing import Any, NamedTuple, TypeVar, overload
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import Any, NamedTuple, overload
 
 from . import _core
-from ._arrays import Number, elementwise, rowwise
-
-Array = TypeVar("Array", NDArray[np.float64], NDArray[np.float32])
+from ._arrays import Array, Number, elementwise, rowwise
 
 
 class Chromaticity(NamedTuple):

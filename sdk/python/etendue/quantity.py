@@ -39,18 +39,7 @@ class Quantity:
 
     def in_unit(self, unit: str) -> float:
         """The number in another unit of the same dimension: quantity("60 cm").in_unit("in"). A shape is needed beyond that: convert()."""
-        if unit == "mired" and self.dimension == "temperature":
-            return 1e6 / self.si
-        number, factor = _core.parse_quantity(f"1 {unit}")
-        found = _DIMENSIONS[number][0]
-        if found != self.dimension:
-            raise Error(
-                "DIMENSION_MISMATCH",
-                f"expected a unit of {self.dimension}, found {unit}, of {found}",
-                hint="convert() knows what the shape of a light makes of it",
-                field="unit",
-            )
-        return self.si / factor
+        return float(in_unit(self.si, self.dimension, unit))
 
     @property
     def unit(self) -> str:
@@ -166,3 +155,38 @@ def si_of(value: str | float | Quantity, dimension: str, field: str) -> float:
 def dimensions() -> dict[str, str]:
     """The name of each dimension, and its SI unit."""
     return dict(_DIMENSIONS)
+
+
+def number_of(dimension: str) -> int:
+    """The number by which the compiled half knows a dimension."""
+    return _NUMBER_OF[dimension]
+
+
+def dimension_of_unit(unit: str | None, field: str) -> str:
+    """What a unit measures. Errors: UNIT_MISSING, UNIT_UNKNOWN."""
+    if not isinstance(unit, str):
+        raise Error("UNIT_MISSING", f"expected a unit, found {unit!r}", hint='write for example unit="lm"', field=field)
+    return _DIMENSIONS[_core.parse_quantity(f"1 {unit}")[0]][0]
+
+
+def in_unit(si: Any, dimension: str, unit: str) -> Any:
+    """A number or an array of that dimension, from its SI unit."""
+    if dimension_of_unit(unit, "unit") != dimension:
+        raise Error(
+            "DIMENSION_MISMATCH",
+            f"expected a unit of {dimension}, found {unit}, of {dimension_of_unit(unit, 'unit')}",
+            hint="convert() knows what the shape of a light makes of it",
+            field="unit",
+        )
+    factor = _core.parse_quantity(f"1 {unit}")[1]
+    if unit == "mired":
+        return factor / si
+    return si if factor == 1 else si / factor
+
+
+def to_si(value: Any, unit: str | None) -> Any:
+    """A number or an array in that unit, in its SI unit."""
+    factor = _core.parse_quantity(f"1 {unit}")[1]
+    if unit == "mired":
+        return factor / value
+    return value if factor == 1 else value * factor
