@@ -10,7 +10,9 @@
 
 #include "exporters/mitsuba/mitsuba.h"
 #include "exporters/rig/rig.h"
+#include "importers/eulumdat/eulumdat.h"
 #include "importers/gltf/gltf.h"
+#include "importers/ies/ies.h"
 #include "importers/rig/rig.h"
 
 namespace etendue::cli {
@@ -128,6 +130,8 @@ const Registry& registry() {
   static const Registry* const built_in = [] {
     auto* const formats = new Registry;  // lives as long as the program
     formats->add(make_gltf_importer());
+    formats->add(make_ies_importer());
+    formats->add(make_eulumdat_importer());
     formats->add(make_rig_importer(*formats));
     formats->add(make_rig_exporter());
     formats->add(make_mitsuba_exporter());

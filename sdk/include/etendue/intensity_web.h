@@ -1,0 +1,113 @@
+// An intensity distribution made ready: luminous intensity towards any direction, and the exact flux of what is evaluated.
+// Directions are in the luminaire's frame: -z is the nadir (gamma = 0, H = V = 0), +x is C0 and +V, +y is C90 and +H.
+#pragma once
+
+#include "etendue/photometry.h"
+#include "etendue/units.h"
+#include "etendue/vec.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace etendue {
+
+// Between the tabulated angles. All meet them to rounding, never overshoot them, and are linear in the azimuth (C; H of type A; V of type B).
+enum class Interpolation {
+  linear,  // linear in the polar angle (gamma; V of type A; H of type B)
+  cosine,  // linear in its cosine (sine of a latitude): the zonal rule's interpolant, exact for a Lambertian
+  cubic    // monotone cubic in the polar angle (Fritsch and Carlson 1980, SIAM J. Numer. Anal. 17, 238)
+};
+
+// Where C0 lies and which way C grows. LM-63: counter-clockwise for C, here seen from above; clockwise mirrors y.
+struct WebFrame {
+  bool clockwise = false;
+  double turn_deg = 0;  // C asked for, less C of the file
+};
+
+// LM-63 lays the length of a luminaire along C0-C180, CIE practice along C90-C270: C_CIE = C_IES + 90 deg.
+enum class Orientation { ies, cie };
+double turn_between(Orientation file, Orientation wanted);
+
+// Angles of a web's own kind (deg) and unit vectors. C: horizontal in [0, 360); A, B: in (-180, 180]. Exact to rounding at the poles too.
+struct WebAngles {
+  double vertical_deg = 0, horizontal_deg = 0;
+};
+WebAngles angles_of(WebType type, const Vec3d& direction, const WebFrame& frame = {});
+Vec3d direction_of(WebType type, const WebAngles& angles, const WebFrame& frame = {});
+
+// One axis of a table: where an angle falls. Nodes may have any spacing.
+class AngleAxis {
+ public:
+  AngleAxis() = default;
+  explicit AngleAxis(std::vector<double> nodes);
+  const std::vector<double>& nodes() const { return nodes_; }
+  // The interval that holds x, the nearest one if none does.
+  std::uint32_t interval(double x) const {
+    if (first_.empty()) return 0;
+    const double cell = (x - nodes_.front()) * cells_per_unit_;
+    std::uint32_t i = first_[cell > 0 ? (cell < last_cell_ ? static_cast<std::uint32_t>(cell) : first_.size() - 1) : 0];
+    while (x >= nodes_[i + 1] && i < last_) ++i;
+    return i;
+  }
+
+ private:
+  std::vector<double> nodes_;
+  std::vector<std::uint32_t> first_;  // per cell of equal width, the interval of its lower end
+  double cells_per_unit_ = 0, last_cell_ = 0;
+  std::uint32_t last_ = 0;
+};
+
+class IntensityWeb {
+ public:
+  // Errors: as check().
+  static Result<IntensityWeb> of(const IntensityDistribution& distribution, Interpolation interpolation = Interpolation::linear,
+                                 const WebFrame& frame = {});
+
+  // cd; 0 where nothing is tabulated, never negative.
+  double towards(const Vec3d& direction) const;  // of any length but 0
+  double at(double c_deg, double gamma_deg) const;
+  double at_own_angles(const WebAngles& angles) const;  // of the file's type, in its own frame
+
+  // lm: the integral of the above over all directions, to rounding.
+  double flux_lm() const { return flux_lm_; }
+  // lm between two cones about the nadir, 0 <= from <= to <= 180. To rounding for type C, to 1e-8 of the flux for A and B.
+  double flux_between(double from_gamma_deg, double to_gamma_deg) const;
+  double max_cd() const { return max_cd_; }
+
+  WebType type() const { return type_; }
+  WebSymmetry symmetry() const { return symmetry_; }
+  Interpolation interpolation() const { return interpolation_; }
+  const WebFrame& frame() const { return frame_; }
+  // The table that is evaluated: polar angle 0..180 from the web's pole (C: gamma; A: 90 + V; B: 90 + H), azimuth (C; H; V) closed and
+  // folded.
+  const AngleAxis& polar() const { return polar_; }
+  const AngleAxis& azimuth() const { return azimuth_; }
+  // cd at a node.
+  double node(std::size_t azimuth, std::size_t polar) const { return candela_[azimuth * polar_.nodes().size() + polar]; }
+  // How often the sphere repeats the table: 1, 2 or 4.
+  int copies() const;
+
+  // Along one plane of the table, by interval and position; the derivative per degree of the cubic at its nodes.
+  double profile(std::size_t plane, std::uint32_t interval, double polar_deg, double cosine) const;
+  // Integral of profile(plane) sin(theta) dtheta over part of an interval, angles in degrees.
+  double profile_integral(std::size_t plane, std::uint32_t interval, double from_deg, double to_deg) const;
+
+  // From polar angle and azimuth to the table; false where it is dark.
+  bool fold(double& polar_deg, double& azimuth_deg) const;
+
+ private:
+  double at_polar(double polar_deg, double azimuth_deg, double cosine) const;
+  double plane_integral(std::size_t plane, double from_deg, double to_deg) const;
+
+  WebType type_ = WebType::c;
+  WebSymmetry symmetry_ = WebSymmetry::none;
+  Interpolation interpolation_ = Interpolation::linear;
+  WebFrame frame_;
+  AngleAxis polar_, azimuth_;
+  std::vector<double> candela_;  // polar angle fastest
+  std::vector<double> slope_;    // cubic alone, cd per degree
+  std::vector<double> cosine_;   // of the polar nodes
+  double flux_lm_ = 0, max_cd_ = 0;
+};
+
+}  // namespace etendue

@@ -1,0 +1,163 @@
+// From the file's grid to the table that is evaluated, and its evaluation.
+#include <algorithm>
+#include <cmath>
+
+#include "etendue/intensity_web.h"
+
+namespace etendue {
+namespace {
+
+constexpr double degree = pi / 180;
+
+bool mirrors_polar(WebType type, WebSymmetry s) {
+  return (type == WebType::a && (s == WebSymmetry::vertical || s == WebSymmetry::lateral_and_vertical)) ||
+         (type == WebType::b && (s == WebSymmetry::lateral || s == WebSymmetry::lateral_and_vertical));
+}
+bool mirrors_azimuth(WebType type, WebSymmetry s) {
+  return (type == WebType::a && (s == WebSymmetry::lateral || s == WebSymmetry::lateral_and_vertical)) ||
+         (type == WebType::b && (s == WebSymmetry::vertical || s == WebSymmetry::lateral_and_vertical));
+}
+
+std::vector<double> from_pole(std::vector<double> latitudes) {
+  for (double& angle : latitudes) angle += 90;
+  return latitudes;
+}
+
+// Fritsch and Carlson's limit, with Brodlie's weighted harmonic mean of the neighbouring chords inside and one-sided parabolas at the ends
+// (the same choice as SciPy's PchipInterpolator): monotone where the data are, so never outside their range, and never negative.
+void monotone_slopes(const std::vector<double>& x, const double* y, double* slope) {
+  const std::size_t n = x.size();
+  const auto chord = [&](std::size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };
+  if (n == 2) {
+    slope[0] = slope[1] = chord(0);
+    return;
+  }
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const double left = chord(i - 1), right = chord(i), a = x[i] - x[i - 1], b = x[i + 1] - x[i];
+    slope[i] = left * right > 0 ? 3 * (a + b) / ((2 * b + a) / left + (b + 2 * a) / right) : 0;
+  }
+  const auto end_slope = [](double near, double far, double chord_near, double chord_far) {
+    const double parabola = ((2 * near + far) * chord_near - near * chord_far) / (near + far);
+    if (parabola * chord_near <= 0) return 0.0;
+    if (chord_near * chord_far <= 0 && std::abs(parabola) > 3 * std::abs(chord_near)) return 3 * chord_near;
+    return parabola;
+  };
+  slope[0] = end_slope(x[1] - x[0], x[2] - x[1], chord(0), chord(1));
+  slope[n - 1] = end_slope(x[n - 1] - x[n - 2], x[n - 2] - x[n - 3], chord(n - 2), chord(n - 3));
+}
+
+}  // namespace
+
+Result<IntensityWeb> IntensityWeb::of(const IntensityDistribution& distribution, Interpolation interpolation, const WebFrame& frame) {
+  if (const Status valid = check(distribution); !valid) return valid.error();
+  const IntensityGrid& grid = distribution.grid;
+  IntensityWeb web;
+  web.type_ = grid.type;
+  web.symmetry_ = grid.symmetry;
+  web.interpolation_ = interpolation;
+  web.frame_ = frame;
+
+  const std::size_t verticals = grid.vertical_deg.size(), horizontals = grid.horizontal_deg.size();
+  const double factor = candelas_per_value(distribution);
+  if (grid.type == WebType::b) {
+    web.polar_ = AngleAxis(from_pole(grid.horizontal_deg));
+    web.azimuth_ = AngleAxis(grid.vertical_deg);
+    web.candela_.resize(grid.values.size());
+    for (std::size_t h = 0; h < horizontals; ++h)
+      for (std::size_t v = 0; v < verticals; ++v) web.candela_[v * horizontals + h] = grid.values[h * verticals + v] * factor;
+  } else {
+    std::vector<double> azimuths = grid.horizontal_deg;
+    web.candela_.reserve(grid.values.size() + verticals);
+    for (const double value : grid.values) web.candela_.push_back(value * factor);
+    if (grid.type == WebType::c && grid.symmetry == WebSymmetry::none && azimuths.back() - azimuths.front() < 360) {
+      azimuths.push_back(azimuths.front() + 360);
+      for (std::size_t v = 0; v < verticals; ++v) web.candela_.push_back(web.candela_[v]);
+    }
+    web.polar_ = AngleAxis(grid.type == WebType::c ? grid.vertical_deg : from_pole(grid.vertical_deg));
+    web.azimuth_ = AngleAxis(std::move(azimuths));
+  }
+
+  const std::vector<double>& polar = web.polar_.nodes();
+  for (const double angle : polar) web.cosine_.push_back(std::cos(angle * degree));
+  if (interpolation == Interpolation::cubic) {
+    web.slope_.resize(web.candela_.size());
+    for (std::size_t at = 0; at < web.candela_.size(); at += polar.size()) monotone_slopes(polar, &web.candela_[at], &web.slope_[at]);
+  }
+  web.max_cd_ = *std::max_element(web.candela_.begin(), web.candela_.end());
+  web.flux_lm_ = web.flux_between(0, 180);
+  return web;
+}
+
+int IntensityWeb::copies() const {
+  switch (symmetry_) {
+    case WebSymmetry::none:
+    case WebSymmetry::rotational:
+      return 1;
+    case WebSymmetry::quadrant:
+    case WebSymmetry::lateral_and_vertical:
+      return 4;
+    default:
+      return 2;
+  }
+}
+
+bool IntensityWeb::fold(double& polar_deg, double& azimuth_deg) const {
+  if (type_ != WebType::c) {
+    if (mirrors_polar(type_, symmetry_) && polar_deg < 90) polar_deg = 180 - polar_deg;
+    if (mirrors_azimuth(type_, symmetry_)) azimuth_deg = std::abs(azimuth_deg);
+    return polar_deg >= polar_.nodes().front() && polar_deg <= polar_.nodes().back() && azimuth_deg >= azimuth_.nodes().front() &&
+           azimuth_deg <= azimuth_.nodes().back();
+  }
+  if (!(polar_deg >= polar_.nodes().front() && polar_deg <= polar_.nodes().back())) return false;
+  if (symmetry_ == WebSymmetry::rotational) return true;
+  const double start = azimuth_.nodes().front();
+  double past = azimuth_deg - start;
+  if (past < 0) past += 360;
+  if (past < 0 || past > 360) past -= 360 * std::floor(past / 360);
+  if (symmetry_ != WebSymmetry::none && past > 180) past = 360 - past;
+  if (symmetry_ == WebSymmetry::quadrant && past > 90) past = 180 - past;
+  azimuth_deg = start + past;
+  return true;
+}
+
+double IntensityWeb::profile(std::size_t plane, std::uint32_t i, double polar_deg, double cosine) const {
+  const std::vector<double>& x = polar_.nodes();
+  const double* const y = &candela_[plane * x.size() + i];
+  const double width = x[i + 1] - x[i];
+  if (interpolation_ == Interpolation::cosine) {
+    const double t = std::clamp((cosine_[i] - cosine) / (cosine_[i] - cosine_[i + 1]), 0.0, 1.0);
+    return y[0] + t * (y[1] - y[0]);
+  }
+  const double t = std::clamp((polar_deg - x[i]) / width, 0.0, 1.0);
+  if (interpolation_ == Interpolation::linear) return y[0] + t * (y[1] - y[0]);
+  const double* const s = &slope_[plane * x.size() + i];
+  const double u = 1 - t;
+  const double value = y[0] * u * u * (1 + 2 * t) + y[1] * t * t * (1 + 2 * u) + width * t * u * (s[0] * u - s[1] * t);
+  return std::clamp(value, std::min(y[0], y[1]), std::max(y[0], y[1]));  // rounding alone could leave the range
+}
+
+double IntensityWeb::at_polar(double polar_deg, double azimuth_deg, double cosine) const {
+  const std::uint32_t i = polar_.interval(polar_deg);
+  if (symmetry_ == WebSymmetry::rotational) return profile(0, i, polar_deg, cosine);
+  const std::uint32_t j = azimuth_.interval(azimuth_deg);
+  const std::vector<double>& planes = azimuth_.nodes();
+  const double t = std::clamp((azimuth_deg - planes[j]) / (planes[j + 1] - planes[j]), 0.0, 1.0);
+  const double a = profile(j, i, polar_deg, cosine), b = profile(j + 1, i, polar_deg, cosine);
+  return a + t * (b - a);
+}
+
+double IntensityWeb::at_own_angles(const WebAngles& angles) const {
+  double polar = type_ == WebType::c ? angles.vertical_deg : 90 + (type_ == WebType::b ? angles.horizontal_deg : angles.vertical_deg);
+  double azimuth = type_ == WebType::b ? angles.vertical_deg : angles.horizontal_deg;
+  if (!fold(polar, azimuth)) return 0;
+  return at_polar(polar, azimuth, interpolation_ == Interpolation::cosine ? std::cos(polar * degree) : 0);
+}
+
+double IntensityWeb::at(double c_deg, double gamma_deg) const {
+  if (type_ == WebType::c) return at_own_angles({gamma_deg, (frame_.clockwise ? -c_deg : c_deg) - frame_.turn_deg});
+  return towards(direction_of(WebType::c, {gamma_deg, c_deg}));
+}
+
+double IntensityWeb::towards(const Vec3d& direction) const { return at_own_angles(angles_of(type_, direction, frame_)); }
+
+}  // namespace etendue
