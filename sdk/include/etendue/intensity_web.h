@@ -11,7 +11,8 @@
 
 namespace etendue {
 
-// Between the tabulated angles. All meet them to rounding, never overshoot them, and are linear in the azimuth (C; H of type A; V of type B).
+// Between the tabulated angles. All meet them to rounding, never overshoot them, and are linear in the azimuth (C; H of type A; V of type
+// B).
 enum class Interpolation {
   linear,  // linear in the polar angle (gamma; V of type A; H of type B)
   cosine,  // linear in its cosine (sine of a latitude): the zonal rule's interpolant, exact for a Lambertian
