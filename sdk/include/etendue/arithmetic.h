@@ -14,61 +14,41 @@ template <Dimension D>
 concept Linear = !Logarithmic<D>;
 
 template <Dimension D>
-  requires Linear<D>
-constexpr Quantity<D> operator+(Quantity<D> a, Quantity<D> b) {
-  return {a.si + b.si};
-}
+requires Linear<D>
+constexpr Quantity<D> operator+(Quantity<D> a, Quantity<D> b) { return {a.si + b.si}; }
 template <Dimension D>
-  requires Linear<D>
-constexpr Quantity<D> operator-(Quantity<D> a, Quantity<D> b) {
-  return {a.si - b.si};
-}
+requires Linear<D>
+constexpr Quantity<D> operator-(Quantity<D> a, Quantity<D> b) { return {a.si - b.si}; }
 template <Dimension D>
-  requires Linear<D>
-constexpr Quantity<D> operator-(Quantity<D> a) {
-  return {-a.si};
-}
+requires Linear<D>
+constexpr Quantity<D> operator-(Quantity<D> a) { return {-a.si}; }
 template <Dimension D>
-  requires Linear<D>
-constexpr Quantity<D> operator*(double times, Quantity<D> q) {
-  return {times * q.si};
-}
+requires Linear<D>
+constexpr Quantity<D> operator*(double times, Quantity<D> q) { return {times * q.si}; }
 template <Dimension D>
-  requires Linear<D>
-constexpr Quantity<D> operator*(Quantity<D> q, double times) {
-  return {q.si * times};
-}
+requires Linear<D>
+constexpr Quantity<D> operator*(Quantity<D> q, double times) { return {q.si * times}; }
 template <Dimension D>
-  requires Linear<D>
-constexpr Quantity<D> operator/(Quantity<D> q, double over) {
-  return {q.si / over};
-}
+requires Linear<D>
+constexpr Quantity<D> operator/(Quantity<D> q, double over) { return {q.si / over}; }
 template <Dimension D>
-  requires Linear<D>
-constexpr double operator/(Quantity<D> a, Quantity<D> b) {
-  return a.si / b.si;
-}
+requires Linear<D>
+constexpr double operator/(Quantity<D> a, Quantity<D> b) { return a.si / b.si; }
 
 template <Dimension D>
-  requires Logarithmic<D>
-constexpr Quantity<D> operator+(Quantity<D> ev, Quantity<Dimension::stop> by) {
-  return {ev.si + by.si};
-}
+requires Logarithmic<D>
+constexpr Quantity<D> operator+(Quantity<D> ev, Quantity<Dimension::stop> by) { return {ev.si + by.si}; }
 template <Dimension D>
-  requires Logarithmic<D>
-constexpr Quantity<D> operator-(Quantity<D> ev, Quantity<Dimension::stop> by) {
-  return {ev.si - by.si};
-}
+requires Logarithmic<D>
+constexpr Quantity<D> operator-(Quantity<D> ev, Quantity<Dimension::stop> by) { return {ev.si - by.si}; }
 template <Dimension D>
-  requires Logarithmic<D>
-constexpr Quantity<Dimension::stop> operator-(Quantity<D> a, Quantity<D> b) {
-  return {a.si - b.si};
-}
+requires Logarithmic<D>
+constexpr Quantity<Dimension::stop> operator-(Quantity<D> a, Quantity<D> b) { return {a.si - b.si}; }
 
 // Watts of any kind times lm/W are what they are of light; an even intensity times its solid angle is a flux.
 template <Dimension Radiant>
-  requires(photometric_twin(Radiant).has_value())
-constexpr Quantity<*photometric_twin(Radiant)> operator*(Quantity<Radiant> radiant, Efficacy efficacy) {
+requires(photometric_twin(Radiant).has_value()) constexpr Quantity<*photometric_twin(Radiant)> operator*(Quantity<Radiant> radiant,
+                                                                                                         Efficacy efficacy) {
   return {radiant.si * efficacy.si};
 }
 constexpr Efficacy operator/(Flux flux, RadiantFlux radiant) { return {flux.si / radiant.si}; }
