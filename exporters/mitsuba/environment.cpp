@@ -17,6 +17,10 @@ Rgb scale_of(const Light& light, const Rgb& resolved, const DecodedImage& image)
 }  // namespace
 
 Status write_environment(Writer& writer, const LightEntry& entry, const EnvironmentShape& environment) {
+  if (!environment.cube.empty()) {
+    writer.losses.add(name_for_losses(entry.light) + ": an environment in the form of a cube", "no light comes from it");
+    return Done{};
+  }
   if (!environment.image) {
     add_rgb(add_plugin(writer.root, "emitter", "constant", entry.id), "radiance", entry.resolved.rgb);
     return Done{};

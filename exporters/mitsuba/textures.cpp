@@ -47,7 +47,7 @@ pugi::xml_node add_bitmap(Writer& writer, pugi::xml_node parent, const char* nam
 
 Result<std::vector<std::byte>> bytes_of(const ImageRef& image) {
   if (image.embedded) {
-    const auto bytes = std::as_bytes(std::span(*image.embedded));
+    const auto bytes = image.embedded.bytes();
     return std::vector<std::byte>(bytes.begin(), bytes.end());
   }
   return read_file(image.file, std::uint64_t{1} << 32);

@@ -38,7 +38,7 @@ std::string folder_beside(const fs::path& rig) {
   return plain(name) + "_files";
 }
 
-const char* extension_of(const std::vector<std::uint8_t>& bytes) {
+const char* extension_of(const SharedBytes& bytes) {
   const auto begins = [&](std::string_view magic) {
     return bytes.size() >= magic.size() &&
            std::equal(magic.begin(), magic.end(), bytes.begin(), [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
@@ -82,8 +82,15 @@ Result<std::string> place_image(Writer& writer, std::uint32_t image) {
   const std::string origin = fmt::format("image {}", image);
   const auto known = writer.placed.find(origin);
   if (known != writer.placed.end()) return known->second;
-  const std::vector<std::uint8_t>& bytes = *ref.embedded;
-  return put_beside(writer, origin, (ref.name.empty() ? "image" : ref.name) + extension_of(bytes), std::as_bytes(std::span(bytes)));
+  return put_beside(writer, origin, (ref.name.empty() ? "image" : ref.name) + extension_of(ref.embedded), ref.embedded.bytes());
+}
+
+Result<std::string> place_photometry(Writer& writer, const PhotometricShape& shape) {
+  if (!shape.embedded) return place_file(writer, shape.file);
+  // Every edition of LM-63 has a line "TILT=...", EULUMDAT has none.
+  const std::string_view text(reinterpret_cast<const char*>(shape.embedded.data()), shape.embedded.size());
+  const std::string name = text.find("TILT=") != std::string_view::npos ? "light.ies" : "light.ldt";
+  return put_beside(writer, fmt::format("photometry {}", writer.files_beside.size()), name, shape.embedded.bytes());
 }
 
 }  // namespace etendue::rig

@@ -96,7 +96,7 @@ struct WriteShape {
     write_scale(json, s.scale);
     return Done{};
   }
-  Status operator()(const PhotometricShape& s) const { return file(place_file(writer, s.file)); }
+  Status operator()(const PhotometricShape& s) const { return file(place_photometry(writer, s)); }
   Status operator()(const EnvironmentShape& s) const { return s.image ? file(place_image(writer, *s.image)) : Status(Done{}); }
 
  private:
@@ -226,6 +226,10 @@ Status write_lights(Writer& writer) {
     const auto* mesh = std::get_if<MeshShape>(&light.shape);
     if (mesh && !writer.mesh_index[mesh->mesh]) {
       writer.losses.add(fmt::format("light \"{}\"", light.name), "left out: a rig file does not hold its mesh");
+      continue;
+    }
+    if (const auto* sky = std::get_if<EnvironmentShape>(&light.shape); sky && !sky->cube.empty()) {
+      writer.losses.add(fmt::format("light \"{}\"", light.name), "left out: a rig file holds no environment in the form of a cube");
       continue;
     }
     if (!names.insert(light.name).second)

@@ -25,6 +25,7 @@ struct Writer {
 // How the rig names a file: relative if it is inside the rig's folder, else copied to NAME_files beside the rig.
 Result<std::string> place_file(Writer& writer, const std::string& file);
 Result<std::string> place_image(Writer& writer, std::uint32_t image);
+Result<std::string> place_photometry(Writer& writer, const PhotometricShape& shape);
 
 // "45 deg" if that reads back as the same double, else radians.
 std::string angle_text(double radians);

@@ -60,6 +60,7 @@ double component(const std::byte* from, int type, bool normalised) {
 
 // A run of equally spaced elements inside a bufferView.
 struct Elements {
+  SharedBytes owner;
   std::span<const std::byte> bytes;
   std::size_t stride = 0;
   const std::byte* operator[](std::size_t i) const { return bytes.data() + i * stride; }
@@ -89,7 +90,7 @@ Result<Elements> elements_in(Asset& asset, int view, const Layout& layout, const
                          fmt::format("{} elements of {} bytes from byte {} on go beyond bufferView {} of {} bytes", layout.count,
                                      layout.element_size, layout.offset, view, size),
                          pointer);
-  return Elements{bytes->subspan(layout.offset), stride};
+  return Elements{*bytes, bytes->bytes().subspan(layout.offset), stride};
 }
 
 Result<std::reference_wrapper<const tinygltf::Accessor>> accessor_at(Asset& asset, int index, const std::string& pointer) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "container.h"
+#include "mapped_file.h"
 #include "uri.h"
 
 namespace etendue::gltf {
@@ -30,6 +31,9 @@ Callbacks no_files() {
   return callbacks;
 }
 bool ignore_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) { return true; }
+
+// A GLB's header and those of its two chunks.
+constexpr std::size_t glb_overhead = 12 + 8 + 8;
 
 constexpr std::size_t max_json_bytes = std::size_t{1} << 29;
 
@@ -60,18 +64,22 @@ Result<std::unique_ptr<Asset>> Asset::open(const std::filesystem::path& file, co
   asset->file_ = file;
   asset->folder_ = file.parent_path();
   asset->options_ = options;
-  auto bytes = read_file(file, options.max_bytes);
+  const auto bytes = map_file(file, options.max_bytes);
   if (!bytes) return bytes.error();
-  asset->bytes_ = std::move(*bytes);
-  asset->stats.bytes_read += asset->bytes_.size();
-
-  auto container = open_container(asset->bytes_);
+  auto container = open_container(bytes->bytes());
   if (!container) {
     container.error().where.file = file.string();
     return container.error();
   }
-  asset->binary_ = container->binary;
-  if (auto parsed = asset->parse(container->json, !is_glb(asset->bytes_)); !parsed) return parsed.error();
+  const auto part = [&](const void* first, std::size_t size) {
+    return bytes->part(static_cast<std::size_t>(static_cast<const std::uint8_t*>(first) - bytes->data()), size);
+  };
+  asset->document_ = part(container->json.data(), container->json.size());
+  if (container->binary) asset->binary_ = part(container->binary->data(), container->binary->size());
+  const bool glb = is_glb(bytes->bytes());
+  asset->stats.bytes_read = asset->document_.size() + (glb ? glb_overhead : 0);
+  will_read_all(asset->document_);
+  if (auto parsed = asset->parse(container->json, !glb); !parsed) return parsed.error();
   if (auto version = asset->check_version(); !version) return version.error();
 
   SchemaFindings findings = check_schema(*asset->json_, options.max_items);
@@ -134,15 +142,20 @@ void Asset::load_model() {
   const Json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
   if (root.contains(lights)) check_conditional(root.at(lights), lights.to_string(), "spot", "spot", *this);
 
-  Json structure = root;
-  for (const char* bytes : {"buffers", "images", "extensions", "animations", "skins", "extras"}) structure.erase(bytes);
+  // What tinygltf is to make its model of: the other members are read from the document, or have bytes behind them.
+  std::string text = "{";
+  for (const char* key :
+       {"asset", "accessors", "bufferViews", "cameras", "materials", "meshes", "nodes", "samplers", "scene", "scenes", "textures"}) {
+    const auto member = root.find(key);
+    if (member != root.end()) text += fmt::format("{}\"{}\":{}", text.size() > 1 ? "," : "", key, member->dump());
+  }
+  text += '}';
   tinygltf::TinyGLTF loader;
   loader.SetFsCallbacks(no_files<tinygltf::FsCallbacks>());
   loader.SetImageLoader(ignore_image, nullptr);
   std::string problems, remarks;
   bool loaded = false;
   try {
-    const std::string text = structure.dump();
     loaded =
         loader.LoadASCIIFromString(&model_, &problems, &remarks, text.data(), static_cast<unsigned>(text.size()), "", tinygltf::NO_REQUIRE);
   } catch (const std::exception& e) {
@@ -198,66 +211,81 @@ void Asset::note(std::string code, std::string text, const std::string& pointer)
   add({Severity::note, std::move(code), std::move(text), at(pointer), {}});
 }
 
-Result<std::span<const std::byte>> Asset::view(int index) {
+Result<SharedBytes> Asset::view(int index) {
+  if (const auto found = views_.find(index); found != views_.end()) return found->second;
   const std::string pointer = fmt::format("/bufferViews/{}", index);
   if (index < 0 || static_cast<std::size_t>(index) >= model_.bufferViews.size())
     return failure("UNRESOLVED_REFERENCE", fmt::format("there is no bufferView {}", index), pointer);
   const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(index)];
-  auto bytes = buffer(view.buffer);
-  if (!bytes) return bytes.error();
-  if (view.byteOffset > bytes->size() || view.byteLength > bytes->size() - view.byteOffset)
-    return failure("BUFFER_VIEW_TOO_LONG",
-                   fmt::format("{} bytes from byte {} on go beyond buffer {} of {} bytes", view.byteLength, view.byteOffset, view.buffer,
-                               bytes->size()),
-                   pointer);
-  return bytes->subspan(view.byteOffset, view.byteLength);
+  auto bytes = part_of_buffer(view.buffer, view.byteOffset, view.byteLength, pointer);
+  if (bytes) views_.emplace(index, *bytes);
+  return bytes;
 }
 
-Result<std::span<const std::byte>> Asset::buffer(int index) {
-  if (const auto found = loaded_.find(index); found != loaded_.end()) return std::span<const std::byte>(found->second);
+Result<SharedBytes> Asset::part_of_buffer(int index, std::size_t offset, std::size_t length, const std::string& pointer) {
+  const auto bytes = buffer(index);
+  if (!bytes) return bytes.error();
+  if (offset > bytes->size() || length > bytes->size() - offset)
+    return failure("BUFFER_VIEW_TOO_LONG",
+                   fmt::format("{} bytes from byte {} on go beyond buffer {} of {} bytes", length, offset, index, bytes->size()), pointer);
+  const SharedBytes part = bytes->part(offset, length);
+  will_read_all(part);
+  buffer_bytes_read_ += length;
+  if (!is_data_uri(text_or((*json_)["buffers"][static_cast<std::size_t>(index)], "uri", ""))) stats.bytes_read += length;
+  return part;
+}
+
+Result<SharedBytes> Asset::buffer(int index) {
+  if (const auto found = buffers_.find(index); found != buffers_.end()) return found->second;
   const std::string pointer = fmt::format("/buffers/{}", index);
   const Json::json_pointer place(pointer);
   if (index < 0 || !json_->contains(place) || !json_->at(place).is_object())
     return failure("UNRESOLVED_REFERENCE", fmt::format("there is no buffer {}", index), pointer);
-  const Json& buffer = json_->at(place);
+  auto bytes = open_buffer(json_->at(place), index == 0, pointer);
+  if (bytes) buffers_.emplace(index, *bytes);
+  return bytes;
+}
+
+Result<SharedBytes> Asset::open_buffer(const Json& buffer, bool first, const std::string& pointer) {
   const double authored_length = number_or(buffer, "byteLength", 0);
   if (!(authored_length >= 1 && authored_length <= static_cast<double>(options_.max_bytes)))
     return failure("LIMIT_EXCEEDED", fmt::format("byteLength {} is outside 1 to {}", authored_length, options_.max_bytes), pointer);
   const auto byte_length = static_cast<std::uint64_t>(authored_length);
 
   if (!buffer.contains("uri")) {
-    if (index != 0 || !binary_)
+    if (!first || !binary_)
       return failure("BUFFER_MISSING_GLB_DATA", "a buffer without uri stands for the binary chunk of a GLB, and there is none", pointer);
-    if (binary_->size() < byte_length)
+    if (binary_.size() < byte_length)
       return failure("BUFFER_GLB_CHUNK_TOO_SMALL",
-                     fmt::format("expected {} bytes in the binary chunk, found {}", byte_length, binary_->size()), pointer);
-    return binary_->first(byte_length);
+                     fmt::format("expected {} bytes in the binary chunk, found {}", byte_length, binary_.size()), pointer);
+    return binary_.part(0, byte_length);
   }
-  const Json& uri = buffer["uri"];
-  auto bytes = load_buffer(uri.is_string() ? uri.get<std::string>() : std::string(), byte_length, pointer);
-  if (!bytes) return bytes.error();
-  return std::span<const std::byte>(loaded_.emplace(index, std::move(*bytes)).first->second);
-}
-
-Result<std::vector<std::byte>> Asset::load_buffer(const std::string& uri, std::uint64_t byte_length, const std::string& pointer) {
-  std::vector<std::byte> bytes;
+  const std::string uri = text_or(buffer, "uri", "");
+  SharedBytes bytes;
   if (is_data_uri(uri)) {
     auto data = decode_data_uri(uri, options_.max_bytes);
     if (!data) return failure(data.error().code, data.error().text, pointer + "/uri");
-    bytes.resize(data->bytes.size());
-    if (!bytes.empty()) std::memcpy(bytes.data(), data->bytes.data(), bytes.size());
+    bytes = SharedBytes(std::move(data->bytes));
   } else {
-    auto path = file_inside(folder_, uri);
+    const auto path = file_inside(folder_, uri);
     if (!path) return failure(path.error().code, path.error().text, pointer + "/uri");
-    auto content = read_file(*path, options_.max_bytes);
-    if (!content) return failure(content.error().code, content.error().text, pointer + "/uri");
-    bytes = std::move(*content);
-    stats.bytes_read += bytes.size();
+    auto mapped = map_file(*path, options_.max_bytes);
+    if (!mapped) return mapped.error();
+    bytes = std::move(*mapped);
   }
   if (bytes.size() < byte_length)
     return failure("BUFFER_BYTE_LENGTH_MISMATCH", fmt::format("expected {} bytes, found {}", byte_length, bytes.size()), pointer);
-  bytes.resize(byte_length);
-  return bytes;
+  return bytes.part(0, byte_length);
+}
+
+void Asset::count_skipped() {
+  const auto buffers = json_->find("buffers");
+  if (buffers == json_->end() || !buffers->is_array()) return;
+  double authored = 0;
+  for (const Json& buffer : *buffers)
+    if (buffer.is_object()) authored += std::max(0.0, number_or(buffer, "byteLength", 0));
+  const double skipped = authored - static_cast<double>(buffer_bytes_read_);
+  stats.skipped_bytes = skipped > 0 ? static_cast<std::uint64_t>(std::min(skipped, 9007199254740992.0)) : 0;
 }
 
 double number_or(const Json& object, const char* key, double otherwise) {

@@ -1,6 +1,7 @@
 // A glTF document that has been read and checked against the schema, and its bytes on demand.
-// tinygltf turns the JSON into its model. It is never given a file name, a buffer or an image: buffers are loaded here when the first
-// accessor asks for them, from inside the asset's folder only, and pictures are not opened at all.
+// Files are mapped, so that only what is looked at is read: of a GLB its JSON. tinygltf turns that into its model. It is never given a file
+// name, a buffer or an image: buffers are opened here when the first accessor asks for them, from inside the asset's folder only, and
+// pictures not at all.
 #pragma once
 
 #include "etendue/io.h"
@@ -15,7 +16,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -38,8 +38,12 @@ class Asset {
   const ImportOptions& options() const { return options_; }
   const std::filesystem::path& folder() const { return folder_; }
 
-  // Bytes of a bufferView, which stay valid. Loads its buffer at the first call.
-  Result<std::span<const std::byte>> view(int index);
+  // Bytes of a bufferView: of its buffer, or what EXT_meshopt_compression says that they become. They count as read.
+  Result<SharedBytes> view(int index);
+  // The bytes that the document's buffer has, as far as anybody holds them; nothing is read yet.
+  Result<SharedBytes> buffer(int index);
+  // The JSON as it stands in the file.
+  const SharedBytes& document() const { return document_; }
 
   Where at(const std::string& pointer) const;
   Error failure(std::string code, std::string text, const std::string& pointer) const;
@@ -52,23 +56,24 @@ class Asset {
   Diagnostics take_diagnostics() { return std::move(diagnostics_); }
   void add(Diagnostic diagnostic);
   Stats stats;
+  void count_skipped();  // into stats: the bytes of buffers that nobody asked for
 
  private:
   Asset() = default;
   Status parse(std::string_view text, bool is_text_file);
   Status check_version() const;
   void load_model();
-  Result<std::span<const std::byte>> buffer(int index);
-  Result<std::vector<std::byte>> load_buffer(const std::string& uri, std::uint64_t byte_length, const std::string& pointer);
+  Result<SharedBytes> open_buffer(const nlohmann::json& buffer, bool first, const std::string& pointer);
+  Result<SharedBytes> part_of_buffer(int buffer, std::size_t offset, std::size_t length, const std::string& pointer);
 
   std::filesystem::path file_, folder_;
   ImportOptions options_;
-  std::vector<std::byte> bytes_;
-  std::optional<std::span<const std::byte>> binary_;  // into bytes_
+  SharedBytes document_, binary_;  // of the mapped file; `binary_` is there in a GLB alone
   std::unique_ptr<nlohmann::json> json_;
   tinygltf::Model model_;
   std::vector<ExtensionUse> extensions_;
-  std::map<int, std::vector<std::byte>> loaded_;
+  std::map<int, SharedBytes> buffers_, views_;
+  std::uint64_t buffer_bytes_read_ = 0;
   std::optional<JsonDocument> text_;  // where each value stands in a .gltf; not for a GLB, whose lines nobody sees
   Diagnostics diagnostics_;
   std::size_t errors_ = 0, others_ = 0;

@@ -1,7 +1,6 @@
 // Where the pixels of an image are: a file, or encoded bytes inside the asset. Nothing is decoded, no image file is opened.
 #include <fmt/format.h>
 
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "materials.h"
@@ -9,14 +8,6 @@
 
 namespace etendue::gltf {
 namespace {
-
-Result<std::vector<std::uint8_t>> bytes_of_view(Asset& asset, int view) {
-  const auto bytes = asset.view(view);
-  if (!bytes) return bytes.error();
-  std::vector<std::uint8_t> copy(bytes->size());
-  if (!copy.empty()) std::memcpy(copy.data(), bytes->data(), copy.size());
-  return copy;
-}
 
 Result<ImageRef> read_image(Asset& asset, const nlohmann::json& source, const std::string& pointer) {
   ImageRef image;
@@ -30,15 +21,15 @@ Result<ImageRef> read_image(Asset& asset, const nlohmann::json& source, const st
     return asset.failure("INVALID_IMAGE", "expected either uri or bufferView", pointer);
   if (source.contains("bufferView")) {
     if (!wanted) return image;
-    auto bytes = bytes_of_view(asset, static_cast<int>(number_or(source, "bufferView", -1)));
+    auto bytes = asset.view(static_cast<int>(number_or(source, "bufferView", -1)));
     if (!bytes) return bytes.error();
-    image.embedded = std::make_shared<const std::vector<std::uint8_t>>(std::move(*bytes));
+    image.embedded = std::move(*bytes);
   } else if (is_data_uri(uri)) {
     if (!wanted) return image;
     auto data = decode_data_uri(uri, asset.options().max_bytes);
     if (!data) return asset.failure(data.error().code, data.error().text, pointer + "/uri");
     if (image.mime_type.empty()) image.mime_type = data->mime_type;
-    image.embedded = std::make_shared<const std::vector<std::uint8_t>>(std::move(data->bytes));
+    image.embedded = SharedBytes(std::move(data->bytes));
   } else {
     const auto path = file_inside(asset.folder(), uri);
     if (!path) return asset.failure(path.error().code, path.error().text, pointer + "/uri");

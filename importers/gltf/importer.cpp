@@ -40,6 +40,7 @@ class GltfImporter final : public Importer {
       gltf::name_unrepresented(**asset);
       gltf::Nodes(**asset, imported.scene).read_default_scene();
       imported.diagnostics = (*asset)->take_diagnostics();
+      (*asset)->count_skipped();
       imported.stats = (*asset)->stats;
       return imported;
     } catch (const std::exception& e) {  // memory, and what libraries throw

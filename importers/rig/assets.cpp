@@ -116,6 +116,7 @@ std::optional<Scene> read_asset(Reader& reader, JsonValue file, Need need) {
   }
   reader.foreign_diagnostics.append(imported->diagnostics);
   reader.stats.bytes_read += imported->stats.bytes_read;
+  reader.stats.skipped_bytes += imported->stats.skipped_bytes;
   reader.stats.images_decoded += imported->stats.images_decoded;
   reader.stats.skipped_meshes += imported->stats.skipped_meshes;
   reader.stats.skipped_images += imported->stats.skipped_images;
@@ -150,7 +151,10 @@ void merge(Reader& reader, Scene asset, const Placement& placement, JsonValue at
   for (Light& light : asset.lights) {
     shift(light.emission.texture, images);
     if (auto* mesh = std::get_if<MeshShape>(&light.shape)) mesh->mesh += meshes;
-    if (auto* sky = std::get_if<EnvironmentShape>(&light.shape); sky && sky->image) *sky->image += images;
+    if (auto* sky = std::get_if<EnvironmentShape>(&light.shape)) {
+      if (sky->image) *sky->image += images;
+      for (std::uint32_t& face : sky->cube) face += images;
+    }
     if (light.surface_material) *light.surface_material += materials;
     if (light.surface_material && placement.material != no_index) light.surface_material = placement.material;
     place(reader, light, placement.transform, at);

@@ -54,7 +54,7 @@ std::optional<std::uint32_t> image_of(Reader& reader, JsonValue value) {
   std::vector<ImageRef>& images = reader.scene.images;
   for (std::size_t i = 0; i < images.size(); ++i)
     if (images[i].file == file) return static_cast<std::uint32_t>(i);
-  images.push_back({file, nullptr, "", std::string(value.string())});
+  images.push_back({file, {}, "", std::string(value.string())});
   return static_cast<std::uint32_t>(images.size() - 1);
 }
 

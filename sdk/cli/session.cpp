@@ -146,9 +146,12 @@ Result<Imported> read_asset(Session& session, const std::string& file, const Imp
   Result<Imported> imported = (*importer)->read(file, options);
   if (!imported) return imported;
   session.diagnostics.append(imported->diagnostics);
-  session.stats["bytes_read"] = imported->stats.bytes_read;
-  session.stats["skipped_meshes"] = imported->stats.skipped_meshes;
-  session.stats["skipped_images"] = imported->stats.skipped_images;
+  const auto add = [&](const char* key, std::uint64_t count) { session.stats[key] = session.stats.value(key, std::uint64_t{0}) + count; };
+  add("bytes_read", imported->stats.bytes_read);
+  add("skipped_bytes", imported->stats.skipped_bytes);
+  add("images_decoded", imported->stats.images_decoded);
+  add("skipped_meshes", imported->stats.skipped_meshes);
+  add("skipped_images", imported->stats.skipped_images);
   return imported;
 }
 

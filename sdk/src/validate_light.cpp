@@ -48,10 +48,16 @@ struct CheckShape {
     return check.index("the mesh", s.mesh, check.scene().meshes.size()) && scaled;
   }
   bool operator()(const PhotometricShape& s) const {
-    if (s.file.empty()) check.error("FILE_MISSING", "expected the name of an .ies or .ldt file");
-    return !s.file.empty();
+    const bool given = !s.file.empty() || s.embedded;
+    if (!given) check.error("FILE_MISSING", "expected the name of an .ies or .ldt file");
+    return given;
   }
-  bool operator()(const EnvironmentShape& s) const { return !s.image || check.index("the image", *s.image, check.scene().images.size()); }
+  bool operator()(const EnvironmentShape& s) const {
+    if (!s.cube.empty() && (s.image || s.cube.size() != 6))
+      check.error("VALUE_UNSUITABLE", "expected one image or the six faces of a cube");
+    const auto known = [&](std::uint32_t image) { return check.index("the image", image, check.scene().images.size()); };
+    return (!s.image || known(*s.image)) && std::all_of(s.cube.begin(), s.cube.end(), known);
+  }
 };
 
 }  // namespace

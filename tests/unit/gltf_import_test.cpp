@@ -307,8 +307,8 @@ TEST(GltfImport, MaterialsWithTexturesThatAreNotOpened) {
   EXPECT_FALSE(scene.images[base.image].embedded);
   const std::vector<std::uint8_t> three = {1, 2, 3};
   ASSERT_TRUE(scene.images[1].embedded && scene.images[2].embedded);
-  EXPECT_EQ(*scene.images[1].embedded, three);
-  EXPECT_EQ(*scene.images[2].embedded, three);
+  EXPECT_EQ(std::vector<std::uint8_t>(scene.images[1].embedded.begin(), scene.images[1].embedded.end()), three);
+  EXPECT_EQ(std::vector<std::uint8_t>(scene.images[2].embedded.begin(), scene.images[2].embedded.end()), three);
   EXPECT_EQ(scene.images[2].mime_type, "image/jpeg");
   EXPECT_EQ(imported->stats.images_decoded, 0u);
   EXPECT_EQ(scene.meshes[0].uvs.size(), 3u);  // TEXCOORD_1

@@ -507,7 +507,7 @@ TEST_F(RigExport, PutsForeignFilesBesideTheRig) {
   Scene scene;
   const std::vector<std::uint8_t> png = {0x89, 'P', 'N', 'G'};
   scene.images.push_back({(folder_ / "outside.hdr").string(), nullptr, "", ""});
-  scene.images.push_back({"", std::make_shared<const std::vector<std::uint8_t>>(png), "image/png", "a/b"});
+  scene.images.push_back({"", png, "image/png", "a/b"});
   Light sky;
   sky.name = "sky";
   sky.shape = EnvironmentShape{0};

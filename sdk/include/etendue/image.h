@@ -1,22 +1,22 @@
 // ImageRef: where pixels are and what they mean. Nothing is opened or decoded here.
 #pragma once
 
+#include "etendue/bytes.h"
 #include "etendue/vec.h"
 
 #include <cstdint>
-#include <memory>
 #include <string>
-#include <vector>
 
 namespace etendue {
 
 // How the numbers of a file become linear values.
 enum class Encoding { linear, srgb };
 
-// Pixels in a file, or in bytes that an asset carries inside itself (an encoded PNG or JPEG, not decoded).
+// Pixels in a file, or in bytes that an asset carries inside itself (an encoded PNG or JPEG, not decoded). Neither where the pixels were
+// not asked for (Need).
 struct ImageRef {
   std::string file;  // absolute or relative to the working directory; "" if embedded
-  std::shared_ptr<const std::vector<std::uint8_t>> embedded;
+  SharedBytes embedded = {};
   std::string mime_type;  // as authored, may be ""
   std::string name;       // for messages
 };

@@ -16,7 +16,8 @@
 namespace etendue {
 
 // What the caller wants to know; what is not asked for is not read.
-enum class Need : unsigned { lights = 1, materials = 2, cameras = 4, meshes = 8, images = 16, everything = 31 };
+// `carried`: what the scene has no place for (Scene::carried).
+enum class Need : unsigned { lights = 1, materials = 2, cameras = 4, meshes = 8, images = 16, carried = 32, everything = 63 };
 constexpr Need operator|(Need a, Need b) { return static_cast<Need>(static_cast<unsigned>(a) | static_cast<unsigned>(b)); }
 constexpr bool has(Need set, Need one) { return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0; }
 
@@ -39,9 +40,10 @@ struct ImportOptions {
   std::uint64_t max_memory = std::uint64_t{1} << 34;   // bytes that one asset takes in all
 };
 
-// What reading did, for --stats.
+// What reading did, for --stats. Files are mapped, so bytes that nobody looked at were not read: they count as skipped.
 struct Stats {
   std::uint64_t bytes_read = 0;
+  std::uint64_t skipped_bytes = 0;
   std::uint64_t images_decoded = 0;
   std::uint64_t skipped_meshes = 0;
   std::uint64_t skipped_images = 0;

@@ -51,12 +51,16 @@ struct MeshShape {
   Vec3d scale{1, 1, 1};    // applied before the light's transform, so that this stays rigid
 };
 struct PhotometricShape {
-  std::string file;  // .ies or .ldt
+  std::string file;           // .ies or .ldt; "" if embedded
+  SharedBytes embedded = {};  // the text of such a file, inside an asset
 };
 struct EnvironmentShape {
   // Index into Scene::images; none: constant. Latitude-longitude as in OpenEXR and Mitsuba: the direction (x, y, z) in the light's frame is
   // at u = 1/2 - atan2(x, z) / (2 pi), v = acos(y) / pi.
   std::optional<std::uint32_t> image;
+  // Instead of `image`: the faces of a cube, +X -X +Y -Y +Z -Z in the light's frame (glTF's EXT_lights_image_based). Kept as a reference:
+  // nothing here evaluates it yet.
+  std::vector<std::uint32_t> cube = {};
 };
 using Shape = std::variant<PointShape, SpotShape, FrustumShape, DistantShape, SphereShape, DiskShape, RectShape, PolygonShape, TubeShape,
                            LineShape, MeshShape, PhotometricShape, EnvironmentShape>;

@@ -17,14 +17,16 @@ namespace etendue {
 
 inline constexpr std::uint32_t no_index = 0xffffffffu;
 
-// Indexed triangles. `normals`, `uvs` are per vertex or empty; without normals the mesh is flat-shaded. Where a file has several sets of
-// texture coordinates, `uvs` is the one that the mesh's material uses. A mirroring transform does not swap the sides: what was the front
-// stays the front (glTF).
+// Indexed triangles. What stands per vertex may be empty; without normals the mesh is flat-shaded. Where a file has several sets of texture
+// coordinates, `uvs` is the one that the mesh's material uses. A mirroring transform does not swap the sides: what was the front stays the
+// front (glTF).
 struct Mesh {
   std::string name;
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;
   std::vector<Vec2f> uvs;
+  std::vector<Vec4f> tangents;  // w: the sign of the bitangent cross(normal, tangent). Carried: normal maps take their frame from the uvs
+  std::vector<Vec4f> colours;   // linear, with alpha, to multiply the base colour by (glTF's COLOR_0). Carried: no picture shows them
   std::vector<std::uint32_t> indices;  // 3 a triangle, counter-clockwise is the front
   std::string source;
 };
@@ -59,13 +61,22 @@ Mesh tessellated(const Geometry& geometry, const std::vector<Mesh>& meshes);
 
 struct Camera {
   std::string name;
-  Transform transform;              // rigid, looks along -Z, +Y up
-  double vfov_rad = 40 * pi / 180;  // full vertical angle
-  std::optional<double> ev100;      // exposure, if the file states one
-  double aspect = 0;                // authored width / height, 0 if not stated
+  Transform transform;                  // rigid, looks along -Z, +Y up
+  double vfov_rad = 40 * pi / 180;      // full vertical angle
+  std::optional<double> ev100;          // exposure, if the file states one
+  double aspect = 0;                    // authored width / height, 0 if not stated
+  std::optional<double> near_m, far_m;  // authored; nothing is cut off at them here
   std::string source;
 };
 Camera look_at(const Vec3d& position, const Vec3d& target, double vfov_rad);
+
+// What a JSON format says beyond the scene, kept so that it can be written back (sdk/docs/decisions, "carried"). The
+// whole document, since its parts refer to one another by position; the scene's `source` members point into the same document.
+struct Carried {
+  SharedBytes document;              // the JSON text, as it stood in the file
+  std::vector<SharedBytes> buffers;  // what its buffers hold, in their order; none for those that the text itself or nobody holds
+  std::vector<std::string> parts;    // JSON pointers to what no other member of the scene represents
+};
 
 struct Scene {
   std::vector<Light> lights;
@@ -76,6 +87,7 @@ struct Scene {
   std::vector<ImageRef> images;
   std::string file;    // what was read
   std::string format;  // id of the importer: "rig", "gltf"
+  Carried carried;
 };
 
 // Everything an evaluator or exporter may rely on: indices in range, finite numbers, ranges of parameters, shapes with a size, resolvable

@@ -31,10 +31,18 @@ struct Vec3 {
   friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
 };
 
+// For what has four numbers and is no point of space: tangents with a sign, colours with alpha.
+template <class T>
+struct Vec4 {
+  T x{}, y{}, z{}, w{};
+  friend constexpr bool operator==(const Vec4&, const Vec4&) = default;
+};
+
 using Vec2f = Vec2<float>;
 using Vec2d = Vec2<double>;
 using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
+using Vec4f = Vec4<float>;
 
 template <class T>
 constexpr T dot(const Vec3<T>& a, const Vec3<T>& b) {

@@ -98,6 +98,8 @@ struct ShapeOf {
 
 Result<Emitter> emitter_of(const Light& light, const EmitterParts& parts) {
   if (std::holds_alternative<PhotometricShape>(light.shape)) return unsupported(light, "photometric lights cannot be evaluated yet");
+  const auto* sky = std::get_if<EnvironmentShape>(&light.shape);
+  if (sky != nullptr && !sky->cube.empty()) return unsupported(light, "environments in the form of a cube cannot be evaluated yet");
   const auto* tube = std::get_if<TubeShape>(&light.shape);
   if (tube != nullptr && tube->caps == Caps::none && light.two_sided) {
     return unsupported(light, "expected caps on a tube that emits on both sides, found none (one would see through it)");

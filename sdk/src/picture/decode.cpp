@@ -63,9 +63,9 @@ Result<DecodedImage> decode(const ImageRef& image, Encoding encoding, std::uint6
   std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;  // outlives its reader
   std::unique_ptr<OIIO::ImageInput> input;
   if (image.embedded) {
-    const char* name = name_for_reader(*image.embedded);
+    const char* name = name_for_reader({image.embedded.data(), image.embedded.size()});
     if (name == nullptr) return unreadable(image, "the first bytes are those of no known format");
-    memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::uint8_t*>(image.embedded->data()), image.embedded->size());
+    memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::uint8_t*>(image.embedded.data()), image.embedded.size());
     OIIO::Filesystem::IOProxy* proxy = memory.get();
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<void*>(&proxy));
     input = OIIO::ImageInput::open(name, &config, proxy);
