@@ -2,6 +2,7 @@
 
 #include "elementwise.h"
 #include "module.h"
+#include "settings.h"
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string_view.h>
@@ -14,14 +15,6 @@
 
 namespace etendue::python {
 namespace {
-
-// f_number, t_stop, shutter_s, shutter_angle_rad, frames_per_s, iso, nd_density, compensation_stop.
-using Settings = std::tuple<std::optional<double>, std::optional<double>, std::optional<double>, std::optional<double>,
-                            std::optional<double>, std::optional<double>, double, double>;
-CameraSettings settings_of(const Settings& s) {
-  const auto& [f_number, t_stop, shutter_s, shutter_angle_rad, frames_per_s, iso, nd_density, compensation_stop] = s;
-  return {f_number, t_stop, shutter_s, shutter_angle_rad, frames_per_s, iso, nd_density, compensation_stop};
-}
 
 // meter_k, meter_c, sensor, lens_q, aperture_counts.
 using CalibrationNumbers = std::tuple<double, double, double, double, bool>;

@@ -1,7 +1,10 @@
 #include "etendue/convert.h"
 
 #include "elementwise.h"
+#include "etendue/formulas.h"
+#include "etendue/unit_names.h"
 #include "module.h"
+#include "settings.h"
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -65,15 +68,23 @@ void set_shape(const ShapeNumbers& given, LightSetup& setup) {
   }
 }
 
+using ExplanationParts =
+    std::tuple<std::string, std::vector<std::tuple<std::string, double, std::string_view>>, std::vector<std::string>, std::string>;
+ExplanationParts numbers_of(const Explanation& e) {
+  std::vector<std::tuple<std::string, double, std::string_view>> symbols;
+  for (const Symbol& s : e.symbols) symbols.emplace_back(s.name, s.value, s.unit);
+  return {e.formula, symbols, e.notes, to_string(e)};
+}
+
 }  // namespace
 
 void bind_conversion(nb::module_& m) {
-  nb::class_<Conversion>(m, "Conversion", "One conversion, prepared for any number of values in SI.");
+  nb::class_<LightSetup>(m, "LightSetup", "What is known of a light besides the quantity.");
   m.def(
-      "conversion",
-      [](int given, int wanted, const std::optional<ShapeNumbers>& shape, bool two_sided, std::string_view spot_flux,
-         std::string_view spot_falloff, std::optional<double> given_distance_m, std::optional<double> wanted_distance_m,
-         std::optional<double> efficacy_lm_W, double meter_k, double meter_c) {
+      "light_setup",
+      [](const std::optional<ShapeNumbers>& shape, bool two_sided, std::string_view spot_flux, std::string_view spot_falloff,
+         std::optional<double> given_distance_m, std::optional<double> wanted_distance_m, std::optional<double> efficacy_lm_W,
+         double meter_k, double meter_c) {
         LightSetup setup;
         if (shape) set_shape(*shape, setup);
         setup.conventions = {two_sided, named(spot_flux, spot_fluxes), named(spot_falloff, spot_falloffs)};
@@ -82,13 +93,36 @@ void bind_conversion(nb::module_& m) {
         setup.efficacy_lm_W = efficacy_lm_W;
         setup.meter_k = meter_k;
         setup.meter_c = meter_c;
-        return unwrap(Conversion::between(static_cast<Dimension>(given), static_cast<Dimension>(wanted), setup));
+        return setup;
       },
-      nb::arg("given"), nb::arg("wanted"), nb::arg("shape").none(), nb::arg("two_sided"), nb::arg("spot_flux"), nb::arg("spot_falloff"),
-      nb::arg("given_distance_m").none(), nb::arg("wanted_distance_m").none(), nb::arg("efficacy_lm_W").none(), nb::arg("meter_k"),
-      nb::arg("meter_c"));
-  def_elementwise<1, Conversion>(
-      m, "converted", [](double si, const Conversion& c) { return c(si); }, "si", "conversion");
+      nb::arg("shape").none(), nb::arg("two_sided"), nb::arg("spot_flux"), nb::arg("spot_falloff"), nb::arg("given_distance_m").none(),
+      nb::arg("wanted_distance_m").none(), nb::arg("efficacy_lm_W").none(), nb::arg("meter_k"), nb::arg("meter_c"));
+
+  nb::class_<Conversion>(m, "Conversion", "One conversion, prepared for any number of values.");
+  m.def(
+      "conversion",
+      [](const NamedUnit& given, const NamedUnit& wanted, const LightSetup& setup) {
+        return unwrap(Conversion::between(given.dimension, wanted.dimension, setup));
+      },
+      nb::arg("given"), nb::arg("wanted"), nb::arg("setup"));
+  def_elementwise<1, Conversion, NamedUnit, NamedUnit>(
+      m, "converted",
+      [](double x, const Conversion& c, const NamedUnit& given, const NamedUnit& wanted) -> Result<double> {
+        const Result<double> si = c(given.to_si(x));
+        if (!si) return si.error();
+        return wanted.from_si(*si);
+      },
+      "value", "conversion", "given", "wanted");
+
+  m.def(
+      "explain_conversion",
+      [](double value, const NamedUnit& given, const NamedUnit& wanted, const LightSetup& setup) {
+        return numbers_of(unwrap(explain(AnyQuantity{given.dimension, given.to_si(value)}, wanted.dimension, setup)));
+      },
+      nb::arg("value"), nb::arg("given"), nb::arg("wanted"), nb::arg("setup"),
+      "Formula, symbols (name, value, unit), notes, and all as lines.");
+  m.def(
+      "explain_camera", [](const Settings& s) { return numbers_of(unwrap(explain(settings_of(s)))); }, nb::arg("settings"));
 }
 
 }  // namespace etendue::python

@@ -9,4 +9,5 @@ NB_MODULE(_core, m) {
   bind_conversion(m);
   bind_colour(m);
   bind_camera(m);
+  bind_pixel(m);
 }

@@ -9,5 +9,6 @@ void bind_quantities(nanobind::module_& m);
 void bind_conversion(nanobind::module_& m);
 void bind_colour(nanobind::module_& m);
 void bind_camera(nanobind::module_& m);
+void bind_pixel(nanobind::module_& m);
 
 }  // namespace etendue::python

@@ -41,7 +41,7 @@ CASES: list[tuple[str, Callable[[], Any], str, str, str]] = [
     ("ISO 0", lambda: camera.ev100(camera.CameraSettings(f_number=8, shutter_s=1, iso=0)), "CAMERA_SETTING_INVALID", "iso", "above 0"),
     ("unknown unit", lambda: quantity("5 nt"), "UNIT_UNKNOWN", "", "nit"),
     ("spelt out", lambda: quantity("5 lumenz"), "UNIT_UNKNOWN", "", "lm"),
-    ("spelt out", lambda: convert("5 lx", "lumen/m2"), "UNIT_UNKNOWN", "", "lx"),
+    ("spelt out", lambda: convert("5 lx", "lumen/m2"), "UNIT_UNKNOWN", "to", "lx"),
     ("a number of some locale", lambda: quantity("1.200,5 lm"), "NUMBER_INVALID", "", "point"),
 ]
 

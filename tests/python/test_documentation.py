@@ -5,13 +5,15 @@ import inspect
 import pkgutil
 from importlib import import_module
 
+import numpy as np
+
 import etendue
 
 MODULES = [import_module(f"etendue.{m.name}") for m in pkgutil.iter_modules(etendue.__path__) if not m.name.startswith("_core")]
 
 
 def test_examples() -> None:
-    names = {name: getattr(etendue, name) for name in etendue.__all__}
+    names = {"np": np} | {name: getattr(etendue, name) for name in etendue.__all__}
     attempted = 0
     for module in [etendue, *MODULES]:
         result = doctest.testmod(module, extraglobs=names, optionflags=doctest.NORMALIZE_WHITESPACE)

@@ -13,9 +13,24 @@ from etendue import camera, colour
 
 # How each function of tests/python/values.cpp is called here, with all its arguments in arrays.
 ROWWISE = {"to_rgb", "to_colour_temperature", "chromaticity_of_rgb"}
+SHAPES: dict[str, etendue.Shape] = {
+    "point": etendue.Point(),
+    "spot": etendue.Spot("17 deg", "31.4 deg"),
+    "frustum": etendue.Frustum("60 deg", "41 deg"),
+    "sphere": etendue.Sphere("15 cm"),
+    "disk": etendue.Disk("37 cm"),
+    "rect": etendue.Rect(0.6, "1.3 m"),
+    "tube": etendue.Tube("120 cm", "13 mm", caps="flat"),
+    "line": etendue.Line("1.7 m"),
+    "distant": etendue.Distant("0.533 deg"),
+    "environment": etendue.Environment(),
+}
 
 
 def function(name: str) -> Any:
+    if name.startswith("convert:"):
+        _, shape, given, wanted = name.split(":")
+        return lambda x: etendue.convert(x, wanted, unit=given, shape=SHAPES[shape], distance=3)
     name, _, calibration = name.partition(":")
     f = getattr(colour, name, None) or getattr(camera, name)
     if calibration:

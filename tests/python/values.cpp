@@ -1,13 +1,14 @@
-// What the C++ library says, bit for bit: "name[:setting] argument... = result...", numbers in hexadecimal.
+// What the C++ library says, bit for bit: "name[:setting...] argument... = result...", numbers in hexadecimal.
 // tests/python/test_same_numbers.py asks the Python module for the same.
 #include "etendue/camera.h"
 #include "etendue/colour.h"
-#include "etendue/units.h"
+#include "etendue/convert.h"
 
 #include <cstdio>
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace {
 
@@ -38,7 +39,7 @@ void temperatures() {
         print("to_colour_temperature", {beside.x, beside.y}, {found->kelvin, found->duv});
     }
     if (t > 4000 && t < 25000) {
-      const Chromaticity d = *daylight(t);
+      const Chromaticity d = *etendue::daylight(t);
       print("daylight", {t}, {d.x, d.y});
     }
   }
@@ -55,6 +56,36 @@ void exposures() {
     }
 }
 
+// Each shape that test_same_numbers.py knows by the same name and sizes, between the SI units of what it knows.
+void conversions() {
+  const std::initializer_list<std::pair<const char*, Shape>> shapes = {{"point", PointShape{}},
+                                                                       {"spot", SpotShape{degrees(17).si, degrees(31.4).si}},
+                                                                       {"frustum", FrustumShape{degrees(60).si, degrees(41).si}},
+                                                                       {"sphere", SphereShape{0.15}},
+                                                                       {"disk", DiskShape{0.37}},
+                                                                       {"rect", RectShape{0.6, 1.3}},
+                                                                       {"tube", TubeShape{1.2, 0.013, Caps::flat}},
+                                                                       {"line", LineShape{1.7}},
+                                                                       {"distant", DistantShape{degrees(0.533).si}},
+                                                                       {"environment", EnvironmentShape{}}};
+  const std::initializer_list<std::pair<const char*, Dimension>> units = {{"lm", Dimension::luminous_flux},
+                                                                          {"cd", Dimension::luminous_intensity},
+                                                                          {"nit", Dimension::luminance},
+                                                                          {"lx", Dimension::illuminance},
+                                                                          {"EV", Dimension::exposure_value}};
+  for (const auto& [name, shape] : shapes) {
+    LightSetup setup;
+    setup.shape = shape;
+    setup.given_distance_m = setup.wanted_distance_m = 3;
+    for (const auto& [from, given] : units)
+      for (const auto& [to, wanted] : units) {
+        const Result<Conversion> conversion = Conversion::between(given, wanted, setup);
+        if (!conversion) continue;
+        for (double x = 0.017; x < 20; x *= 1.9) print(std::string("convert:") + name + ":" + from + ":" + to, {x}, {*(*conversion)(x)});
+      }
+  }
+}
+
 void texts() {
   for (const char* text : {"1500 lm", "20 knit", "7.3 in", "47.3 deg", "137 mired", "3.7 fc", "1.1 fL", "-3.3 EV"}) {
     std::printf("quantity %s", text);
@@ -67,5 +98,6 @@ void texts() {
 int main() {
   temperatures();
   exposures();
+  conversions();
   texts();
 }

@@ -14,10 +14,10 @@
 Whatever cannot be answered is an etendue.Error with code, text, hint, field.
 """
 
-from . import camera, colour
-from .conversion import convert
+from . import camera, colour, pixel
+from .conversion import Explanation, convert, explain
 from .errors import Error
-from .quantity import Quantity, dimensions, quantity
+from .quantity import Quantity, Unit, dimensions, quantity, units
 from .shapes import (
     Disk,
     Distant,
@@ -34,12 +34,14 @@ from .shapes import (
     Spot,
     Tube,
 )
+from .text import Written, WrittenQuantity, parse
 
 __all__ = [
     "Disk",
     "Distant",
     "Environment",
     "Error",
+    "Explanation",
     "Frustum",
     "Line",
     "Mesh",
@@ -52,9 +54,16 @@ __all__ = [
     "Sphere",
     "Spot",
     "Tube",
+    "Unit",
+    "Written",
+    "WrittenQuantity",
     "camera",
     "colour",
     "convert",
     "dimensions",
+    "explain",
+    "parse",
+    "pixel",
     "quantity",
+    "units",
 ]

@@ -3,11 +3,26 @@ The compiled half of etendue: functions of numbers in SI units and of contiguous
 """
 
 from collections.abc import Sequence
-from typing import Annotated, overload
+from typing import Annotated, Any, overload
 
 import numpy
 from numpy.typing import NDArray
 
+
+class NamedUnit:
+    """What one unit is in SI."""
+
+    @property
+    def dimension(self) -> int: ...
+
+    def to_si(self, x: float) -> float: ...
+
+    def from_si(self, si: float) -> float: ...
+
+def unit_named(spelling: str) -> NamedUnit: ...
+
+def unit_spellings() -> list[tuple[str, str, str, int]]:
+    """Symbol, SI prefixes, name and dimension of each unit."""
 
 def dimensions() -> list[tuple[str, str]]:
     """Name and SI unit of each dimension, in the order of their numbers."""
@@ -15,22 +30,35 @@ def dimensions() -> list[tuple[str, str]]:
 def parse_quantity(text: str) -> tuple[int, float]:
     """Number of the dimension, and value in its SI unit."""
 
+def parse(text: str) -> tuple[Any, ...]:
+    """What was written, and its numbers."""
+
 def quantity_text(dimension: int, si: float) -> str:
     """The shortest text that reads back as the same double."""
 
+class LightSetup:
+    """What is known of a light besides the quantity."""
+
+def light_setup(shape: tuple[str, Sequence[float], str] | None, two_sided: bool, spot_flux: str, spot_falloff: str, given_distance_m: float | None, wanted_distance_m: float | None, efficacy_lm_W: float | None, meter_k: float, meter_c: float) -> LightSetup: ...
+
 class Conversion:
-    """One conversion, prepared for any number of values in SI."""
+    """One conversion, prepared for any number of values."""
 
-def conversion(given: int, wanted: int, shape: tuple[str, Sequence[float], str] | None, two_sided: bool, spot_flux: str, spot_falloff: str, given_distance_m: float | None, wanted_distance_m: float | None, efficacy_lm_W: float | None, meter_k: float, meter_c: float) -> Conversion: ...
-
-@overload
-def converted(si: float, conversion: Conversion) -> float: ...
+def conversion(given: NamedUnit, wanted: NamedUnit, setup: LightSetup) -> Conversion: ...
 
 @overload
-def converted(si: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], conversion: Conversion) -> Annotated[NDArray[numpy.float64], dict(order='C')]: ...
+def converted(value: float, conversion: Conversion, given: NamedUnit, wanted: NamedUnit) -> float: ...
 
 @overload
-def converted(si: Annotated[NDArray[numpy.float32], dict(order='C', device='cpu', writable=False)], conversion: Conversion) -> Annotated[NDArray[numpy.float32], dict(order='C')]: ...
+def converted(value: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], conversion: Conversion, given: NamedUnit, wanted: NamedUnit) -> Annotated[NDArray[numpy.float64], dict(order='C')]: ...
+
+@overload
+def converted(value: Annotated[NDArray[numpy.float32], dict(order='C', device='cpu', writable=False)], conversion: Conversion, given: NamedUnit, wanted: NamedUnit) -> Annotated[NDArray[numpy.float32], dict(order='C')]: ...
+
+def explain_conversion(value: float, given: NamedUnit, wanted: NamedUnit, setup: LightSetup) -> tuple[str, list[tuple[str, float, str]], list[str], str]:
+    """Formula, symbols (name, value, unit), notes, and all as lines."""
+
+def explain_camera(settings: tuple[float | None, float | None, float | None, float | None, float | None, float | None, float, float]) -> tuple[str, list[tuple[str, float, str]], list[str], str]: ...
 
 @overload
 def planckian(kelvin: float) -> tuple[float, float]: ...
@@ -244,3 +272,67 @@ def cell_energy(exposure_lx_s: Annotated[NDArray[numpy.float64], dict(order='C',
 def cell_energy(exposure_lx_s: Annotated[NDArray[numpy.float32], dict(order='C', device='cpu', writable=False)], width_m: float, height_m: float, columns: float, rows: float) -> Annotated[NDArray[numpy.float32], dict(order='C')]: ...
 
 def sunny_sixteen() -> list[tuple[float, str, str]]: ...
+
+@overload
+def pack_half(pixels: Annotated[NDArray[numpy.float32], dict(order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.uint16], dict(order='C')], tuple[int, int, int]]: ...
+
+@overload
+def pack_half(pixels: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.uint16], dict(order='C')], tuple[int, int, int]]: ...
+
+def unpack_half(codes: Annotated[NDArray[numpy.uint16], dict(order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float32], dict(order='C')]: ...
+
+@overload
+def pack_r11g11b10f(pixels: Annotated[NDArray[numpy.float32], dict(order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.uint32], dict(order='C')], tuple[int, int, int]]: ...
+
+@overload
+def pack_r11g11b10f(pixels: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.uint32], dict(order='C')], tuple[int, int, int]]: ...
+
+def unpack_r11g11b10f(codes: Annotated[NDArray[numpy.uint32], dict(order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float32], dict(order='C')]: ...
+
+@overload
+def pack_rgb9e5(pixels: Annotated[NDArray[numpy.float32], dict(order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.uint32], dict(order='C')], tuple[int, int, int]]: ...
+
+@overload
+def pack_rgb9e5(pixels: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.uint32], dict(order='C')], tuple[int, int, int]]: ...
+
+def unpack_rgb9e5(codes: Annotated[NDArray[numpy.uint32], dict(order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float32], dict(order='C')]: ...
+
+@overload
+def pack_rgbe(pixels: Annotated[NDArray[numpy.float32], dict(order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.uint8], dict(order='C')], tuple[int, int, int]]: ...
+
+@overload
+def pack_rgbe(pixels: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.uint8], dict(order='C')], tuple[int, int, int]]: ...
+
+def unpack_rgbe(codes: Annotated[NDArray[numpy.uint8], dict(order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float32], dict(order='C')]: ...
+
+@overload
+def pack_logluv(pixels: Annotated[NDArray[numpy.float32], dict(order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.uint32], dict(order='C')], tuple[int, int, int]]: ...
+
+@overload
+def pack_logluv(pixels: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.uint32], dict(order='C')], tuple[int, int, int]]: ...
+
+def unpack_logluv(codes: Annotated[NDArray[numpy.uint32], dict(order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float32], dict(order='C')]: ...
+
+@overload
+def pack_rgb10a2(pixels: Annotated[NDArray[numpy.float32], dict(order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.uint32], dict(order='C')], tuple[int, int, int]]: ...
+
+@overload
+def pack_rgb10a2(pixels: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.uint32], dict(order='C')], tuple[int, int, int]]: ...
+
+def unpack_rgb10a2(codes: Annotated[NDArray[numpy.uint32], dict(order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float32], dict(order='C')]: ...
+
+@overload
+def pack_rgbm(pixels: Annotated[NDArray[numpy.float32], dict(order='C', device='cpu', writable=False)], range: float) -> tuple[Annotated[NDArray[numpy.uint8], dict(order='C')], tuple[int, int, int]]: ...
+
+@overload
+def pack_rgbm(pixels: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], range: float) -> tuple[Annotated[NDArray[numpy.uint8], dict(order='C')], tuple[int, int, int]]: ...
+
+def unpack_rgbm(codes: Annotated[NDArray[numpy.uint8], dict(order='C', device='cpu', writable=False)], range: float) -> Annotated[NDArray[numpy.float32], dict(order='C')]: ...
+
+@overload
+def pack_rgbd(pixels: Annotated[NDArray[numpy.float32], dict(order='C', device='cpu', writable=False)], range: float) -> tuple[Annotated[NDArray[numpy.uint8], dict(order='C')], tuple[int, int, int]]: ...
+
+@overload
+def pack_rgbd(pixels: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], range: float) -> tuple[Annotated[NDArray[numpy.uint8], dict(order='C')], tuple[int, int, int]]: ...
+
+def unpack_rgbd(codes: Annotated[NDArray[numpy.uint8], dict(order='C', device='cpu', writable=False)], range: float) -> Annotated[NDArray[numpy.float32], dict(order='C')]: ...

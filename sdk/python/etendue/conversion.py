@@ -1,13 +1,77 @@
-"""Light quantities into one another."""
+"""Light quantities into one another, and the formula behind it."""
 
-from typing import Any, overload
-
-import numpy as np
+import dataclasses
+from typing import Any, NamedTuple, overload
 
 from . import _core
 from ._arrays import Array, elementwise
-from .quantity import Quantity, dimension_of_unit, in_unit, number_of, quantity, si_of, to_si
+from .camera import CameraSettings, ev100, ev_s
+from .errors import Error
+from .quantity import Quantity, quantity, si_of, unit_named
 from .shapes import Length, Shape
+from .text import WrittenQuantity, parse
+
+
+class _Given(NamedTuple):
+    """What was given: numbers in a unit, and what was written beside them."""
+
+    numbers: Any
+    unit: _core.NamedUnit
+    distance: Quantity | None
+    efficacy: Quantity | None
+
+
+def _given(value: Any, unit: str | None) -> _Given:
+    if isinstance(value, str) and unit is None:
+        written = parse(value)
+        if isinstance(written, CameraSettings):
+            written = (
+                Quantity(ev_s(written), "exposure value without ISO")
+                if written.iso is None
+                else Quantity(ev100(written), "exposure value at ISO 100")
+            )
+        if isinstance(written, WrittenQuantity):
+            return _Given(written.quantity.si, unit_named(written.quantity.unit, "value"), written.distance, written.efficacy)
+        if not isinstance(written, Quantity):
+            raise Error(
+                "DIMENSION_MISMATCH",
+                f"expected a quantity, found a colour: {value!r}",
+                hint="etendue.colour converts colours",
+                field="value",
+            )
+        value = written
+    if isinstance(value, (str, float, int, Quantity)):
+        q = quantity(value, unit)
+        return _Given(q.si, unit_named(q.unit, "unit"), None, None)
+    return _Given(value, unit_named(unit, "unit"), None, None)
+
+
+def _setup(
+    given: _Given,
+    shape: Shape | None,
+    two_sided: bool,
+    spot_flux: str,
+    spot_falloff: str,
+    distance: Length | None,
+    given_distance: Length | None,
+    efficacy: str | Quantity | None,
+    meter_k: float,
+    meter_c: float,
+) -> _core.LightSetup:
+    wanted = distance if distance is not None else given.distance
+    measured = given.distance or (given_distance if given_distance is not None else distance)
+    lamp = efficacy if efficacy is not None else given.efficacy
+    return _core.light_setup(
+        None if shape is None else shape._numbers(),
+        two_sided,
+        spot_flux,
+        spot_falloff,
+        None if measured is None else si_of(measured, "length", "given_distance"),
+        None if wanted is None else si_of(wanted, "length", "distance"),
+        None if lamp is None else si_of(lamp, "luminous efficacy", "efficacy"),
+        meter_k,
+        meter_c,
+    )
 
 
 @overload
@@ -61,6 +125,10 @@ def convert(
 
         >>> convert("1500 lm", "nit", shape=Sphere("15 cm"))
         1688.686394038963
+        >>> convert("15 klx @ 2 m", "cd", shape=Point())
+        60000.0
+        >>> convert(np.array([400.0, 800.0]), "cd", unit="lm", shape=Point())
+        array([31.83098862, 63.66197724])
 
     two_sided: of flat shapes, the flux is that of both sides.
     spot_flux: "falloff" (the integral over what is rendered), "cone", "frostbite_pi", "isotropic".
@@ -72,24 +140,58 @@ def convert(
     What is needed and was not said is an Error that names it: SHAPE_MISSING, SIZE_MISSING, DISTANCE_MISSING, EFFICACY_MISSING,
     UNIT_UNSUITABLE, DIMENSION_MISMATCH, NUMBER_INVALID.
     """
-    if isinstance(value, np.ndarray):
-        given, si = dimension_of_unit(unit, "unit"), to_si(value, unit)
+    given = _given(value, unit)
+    setup = _setup(given, shape, two_sided, spot_flux, spot_falloff, distance, given_distance, efficacy, meter_k, meter_c)
+    wanted = unit_named(to, "to")
+    conversion = _core.conversion(given.unit, wanted, setup)
+    return elementwise(_core.converted, conversion, given.unit, wanted, value=given.numbers)
+
+
+class Symbol(NamedTuple):
+    """A letter of a formula: its value in SI, and its unit, "" for a pure number."""
+
+    name: str
+    value: float
+    unit: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Explanation:
+    """The formula behind a result, its symbols, and why it is so: conventions and sources. str() is all of it, for people."""
+
+    formula: str
+    symbols: tuple[Symbol, ...]
+    notes: tuple[str, ...]
+    _text: str = dataclasses.field(repr=False)
+
+    def __str__(self) -> str:
+        return self._text
+
+
+def explain(
+    value: str | float | Quantity | CameraSettings,
+    to: str = "EV",
+    *,
+    unit: str | None = None,
+    shape: Shape | None = None,
+    two_sided: bool = False,
+    spot_flux: str = "falloff",
+    spot_falloff: str = "squared",
+    distance: Length | None = None,
+    given_distance: Length | None = None,
+    efficacy: str | Quantity | None = None,
+    meter_k: float = 12.5,
+    meter_c: float = 250.0,
+) -> Explanation:
+    """The formula that convert() computes for the same arguments, or that gives a camera its exposure value.
+
+    >>> explain("1500 lm", "nit", shape=Sphere("15 cm")).formula
+    'luminance = flux/(4*pi^2*radius^2)'
+    """
+    if isinstance(value, CameraSettings):
+        formula, symbols, notes, text = _core.explain_camera(value._numbers)
     else:
-        q = quantity(value, unit)
-        given, si = q.dimension, q.si
-    wanted = dimension_of_unit(to, "to")
-    distance_m = None if distance is None else si_of(distance, "length", "distance")
-    conversion = _core.conversion(
-        number_of(given),
-        number_of(wanted),
-        None if shape is None else shape._numbers(),
-        two_sided,
-        spot_flux,
-        spot_falloff,
-        distance_m if given_distance is None else si_of(given_distance, "length", "given_distance"),
-        distance_m,
-        None if efficacy is None else si_of(efficacy, "luminous efficacy", "efficacy"),
-        meter_k,
-        meter_c,
-    )
-    return in_unit(elementwise(_core.converted, conversion, value=si), wanted, to)
+        given = _given(value, unit)
+        setup = _setup(given, shape, two_sided, spot_flux, spot_falloff, distance, given_distance, efficacy, meter_k, meter_c)
+        formula, symbols, notes, text = _core.explain_conversion(given.numbers, given.unit, unit_named(to, "to"), setup)
+    return Explanation(formula, tuple(Symbol(*s) for s in symbols), tuple(notes), text)

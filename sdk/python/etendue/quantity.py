@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from typing import Any
+import math
+from typing import Any, NamedTuple
 
 from . import _core
 from .errors import Error
@@ -39,7 +40,16 @@ class Quantity:
 
     def in_unit(self, unit: str) -> float:
         """The number in another unit of the same dimension: quantity("60 cm").in_unit("in"). A shape is needed beyond that: convert()."""
-        return float(in_unit(self.si, self.dimension, unit))
+        named = unit_named(unit, "unit")
+        found = _DIMENSIONS[named.dimension][0]
+        if found != self.dimension:
+            raise Error(
+                "DIMENSION_MISMATCH",
+                f"expected a unit of {self.dimension}, found {unit}, of {found}",
+                hint="convert() knows what the shape of a light makes of it",
+                field="unit",
+            )
+        return named.from_si(self.si)
 
     @property
     def unit(self) -> str:
@@ -137,8 +147,11 @@ def quantity(value: str | float | Quantity, unit: str | None = None) -> Quantity
             field="unit",
         )
     else:
-        number, si = _core.parse_quantity(f"{float(value)!r} {unit}")
-    return Quantity(si, _DIMENSIONS[number][0])
+        named = unit_named(unit, "unit")
+        number, si = named.dimension, named.to_si(float(value))
+        if not math.isfinite(si):
+            raise Error("NUMBER_INVALID", f"expected a finite number of {unit}, found {value!r}", field="value")
+    return of_number(si, number)
 
 
 def si_of(value: str | float | Quantity, dimension: str, field: str) -> float:
@@ -162,31 +175,31 @@ def number_of(dimension: str) -> int:
     return _NUMBER_OF[dimension]
 
 
-def dimension_of_unit(unit: str | None, field: str) -> str:
-    """What a unit measures. Errors: UNIT_MISSING, UNIT_UNKNOWN."""
+def of_number(si: float, number: int) -> Quantity:
+    """A quantity of the dimension of that number."""
+    return Quantity(si, _DIMENSIONS[number][0])
+
+
+def unit_named(unit: str | None, field: str) -> _core.NamedUnit:
+    """What a unit is. Errors: UNIT_MISSING, UNIT_UNKNOWN."""
     if not isinstance(unit, str):
         raise Error("UNIT_MISSING", f"expected a unit, found {unit!r}", hint='write for example unit="lm"', field=field)
-    return _DIMENSIONS[_core.parse_quantity(f"1 {unit}")[0]][0]
+    try:
+        return _core.unit_named(unit)
+    except Error as error:
+        error.field = field
+        raise
 
 
-def in_unit(si: Any, dimension: str, unit: str) -> Any:
-    """A number or an array of that dimension, from its SI unit."""
-    if dimension_of_unit(unit, "unit") != dimension:
-        raise Error(
-            "DIMENSION_MISMATCH",
-            f"expected a unit of {dimension}, found {unit}, of {dimension_of_unit(unit, 'unit')}",
-            hint="convert() knows what the shape of a light makes of it",
-            field="unit",
-        )
-    factor = _core.parse_quantity(f"1 {unit}")[1]
-    if unit == "mired":
-        return factor / si
-    return si if factor == 1 else si / factor
+class Unit(NamedTuple):
+    """A unit: how it is written, the SI prefixes that it takes (a letter each), what it is called, what it measures."""
+
+    symbol: str
+    prefixes: str
+    name: str
+    dimension: str
 
 
-def to_si(value: Any, unit: str | None) -> Any:
-    """A number or an array in that unit, in its SI unit."""
-    factor = _core.parse_quantity(f"1 {unit}")[1]
-    if unit == "mired":
-        return factor / value
-    return value if factor == 1 else value * factor
+def units() -> list[Unit]:
+    """Every unit that text may have."""
+    return [Unit(symbol, prefixes, name, _DIMENSIONS[number][0]) for symbol, prefixes, name, number in _core.unit_spellings()]
