@@ -58,16 +58,17 @@ void exposures() {
 
 // Each shape that test_same_numbers.py knows by the same name and sizes, between the SI units of what it knows.
 void conversions() {
-  const std::initializer_list<std::pair<const char*, Shape>> shapes = {{"point", PointShape{}},
-                                                                       {"spot", SpotShape{degrees(17).si, degrees(31.4).si}},
-                                                                       {"frustum", FrustumShape{degrees(60).si, degrees(41).si}},
-                                                                       {"sphere", SphereShape{0.15}},
-                                                                       {"disk", DiskShape{0.37}},
-                                                                       {"rect", RectShape{0.6, 1.3}},
-                                                                       {"tube", TubeShape{1.2, 0.013, Caps::flat}},
-                                                                       {"line", LineShape{1.7}},
-                                                                       {"distant", DistantShape{degrees(0.533).si}},
-                                                                       {"environment", EnvironmentShape{}}};
+  const std::initializer_list<std::pair<const char*, Shape>> shapes = {
+      {"point", PointShape{}},
+      {"spot", SpotShape{*parse_si("17 deg", Dimension::angle), *parse_si("31.4 deg", Dimension::angle)}},
+      {"frustum", FrustumShape{*parse_si("60 deg", Dimension::angle), *parse_si("41 deg", Dimension::angle)}},
+      {"sphere", SphereShape{0.15}},
+      {"disk", DiskShape{0.37}},
+      {"rect", RectShape{0.6, 1.3}},
+      {"tube", TubeShape{1.2, 0.013, Caps::flat}},
+      {"line", LineShape{1.7}},
+      {"distant", DistantShape{*parse_si("0.533 deg", Dimension::angle)}},
+      {"environment", EnvironmentShape{}}};
   const std::initializer_list<std::pair<const char*, Dimension>> units = {{"lm", Dimension::luminous_flux},
                                                                           {"cd", Dimension::luminous_intensity},
                                                                           {"nit", Dimension::luminance},
