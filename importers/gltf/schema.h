@@ -2,13 +2,16 @@
 // wrong types for absent properties, leaves out primitives that it dislikes, and follows any index.
 #pragma once
 
-#include "etendue/result.h"
+#include "findings.h"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etendue::gltf {
@@ -19,12 +22,13 @@ enum class Kind {
   integer,
   number,
   string,
-  strings,
+  strings,  // distinct ones
   numbers,
-  index,          // into the array at `of`
-  indices,        // distinct ones
-  named_indices,  // an object whose values are indices
-  object,         // of the type `of`
+  index,               // into the array at `of`
+  indices,             // distinct ones
+  named_indices,       // an object whose values are indices
+  named_indices_list,  // an array of those
+  object,              // of the type `of`
   objects
 };
 
@@ -35,29 +39,33 @@ struct Property {
   bool required = false;
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  std::size_t length = 0;                 // of `numbers`; 0: any
-  std::vector<double> values = {};        // if not empty: the only ones allowed
-  std::vector<std::string> strings = {};  // likewise
+  std::size_t length = 0;                                  // of `numbers`; 0: any
+  std::vector<double> values = {};                         // if not empty: the only ones known
+  std::vector<std::string> strings = {};                   // likewise
+  double also = std::numeric_limits<double>::quiet_NaN();  // allowed though outside of min to max
+  bool (*matches)(std::string_view) = nullptr;             // of strings
 };
 
 // The properties of a type of object, `extensions` and `extras` aside; nullptr if the table has no such type. The object of an extension
 // is the type "node.KHR_lights_punctual" for one that stands in a "node".
 const std::vector<Property>* properties_of(const std::string& type);
+using SchemaTable = std::map<std::string, std::vector<Property>>;
+SchemaTable core_schema();
+SchemaTable extension_schema();
+
+// Whether the table says where objects of the extension may stand.
+bool is_known_extension(std::string_view name);
 
 struct ExtensionUse {
   std::string name, pointer;
 };
 struct SchemaFindings {
-  std::vector<Diagnostic> diagnostics;   // where.pointer is set
-  std::vector<ExtensionUse> extensions;  // every member of every "extensions" object
+  std::vector<ExtensionUse> extensions;           // every member of every "extensions" object
+  std::map<std::string, std::vector<bool>> used;  // by the pointer of an array: what an index points to
 };
 
-// Types, required properties, ranges, enumerations, and that every index points to something. Codes are the validator's. Beyond
-// max_findings of a severity the rest is not listed.
-constexpr std::size_t max_findings = 1000;
-SchemaFindings check_schema(const nlohmann::json& root, std::size_t max_items);
-
-// Appends a token to a JSON pointer, escaped as RFC 6901 wants it.
-std::string pointer_to(const std::string& parent, const std::string& key);
+// Types, required properties, ranges, enumerations, places of extensions, and that every index points to something. Codes and severities
+// are the validator's. An integer that is written as 3.0 (which JSON Schema allows) becomes 3.
+SchemaFindings check_schema(nlohmann::json& root, std::size_t max_items, Findings& findings);
 
 }  // namespace etendue::gltf

@@ -61,18 +61,24 @@ int base64_digit(char c) {
   return -1;
 }
 
-// RFC 4648, section 4; the padding may be missing.
-std::optional<std::vector<std::uint8_t>> base64_decoded(std::string_view text) {
-  for (int i = 0; i < 2 && !text.empty() && text.back() == '='; ++i) text.remove_suffix(1);
-  if (text.size() % 4 == 1) return std::nullopt;
+// RFC 4648, section 4: four digits to three bytes, the last ones padded. The number of digits without the padding; none if it is not so.
+std::optional<std::size_t> base64_digits(std::string_view text) {
+  if (text.size() % 4 != 0) return std::nullopt;
+  std::size_t size = text.size();
+  for (int i = 0; i < 2 && size > 0 && text[size - 1] == '='; ++i) --size;
+  if (!std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(size), [](char c) { return base64_digit(c) >= 0; }))
+    return std::nullopt;
+  return size;
+}
+
+// Of digits that base64_digits() has counted.
+std::vector<std::uint8_t> base64_decoded(std::string_view digits) {
   std::vector<std::uint8_t> out;
-  out.reserve(text.size() / 4 * 3 + 2);
+  out.reserve(digits.size() / 4 * 3 + 2);
   std::uint32_t bits = 0;
   int count = 0;
-  for (const char c : text) {
-    const int digit = base64_digit(c);
-    if (digit < 0) return std::nullopt;
-    bits = (bits << 6 | static_cast<std::uint32_t>(digit)) & 0xFFFFFFu;
+  for (const char c : digits) {
+    bits = (bits << 6 | static_cast<std::uint32_t>(base64_digit(c))) & 0xFFFFFFu;
     count += 6;
     if (count >= 8) {
       count -= 8;
@@ -80,6 +86,25 @@ std::optional<std::vector<std::uint8_t>> base64_decoded(std::string_view text) {
     }
   }
   return out;
+}
+
+struct DataParts {
+  std::string_view head, payload;
+  bool is_base64 = false;
+};
+std::optional<DataParts> data_parts(std::string_view uri) {
+  constexpr std::string_view suffix = ";base64";
+  const std::size_t comma = uri.find(',');
+  if (!is_data_uri(uri) || comma == std::string_view::npos) return std::nullopt;
+  DataParts parts{uri.substr(5, comma - 5), uri.substr(comma + 1)};
+  parts.is_base64 = parts.head.ends_with(suffix);
+  if (parts.is_base64) parts.head.remove_suffix(suffix.size());
+  return parts;
+}
+
+// "=", "+" and "/" may come percent-encoded.
+std::optional<std::string> unescaped(std::string_view payload) {
+  return payload.find('%') == std::string_view::npos ? std::nullopt : percent_decoded(payload);
 }
 
 }  // namespace
@@ -90,22 +115,60 @@ bool is_data_uri(std::string_view uri) {
                                                    [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
 }
 
+std::string mime_type_of(std::string_view uri) {
+  const auto parts = data_parts(uri);
+  std::string type(parts ? parts->head.substr(0, parts->head.find(';')) : "");
+  std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return type;
+}
+
+Status check_uri(std::string_view uri) {
+  if (!is_data_uri(uri)) {
+    if (uri.starts_with(':') || uri.find('\0') != std::string_view::npos)
+      return uri_error("INVALID_URI", fmt::format("expected a relative reference, found \"{}\"", shown(uri)));
+    return Done{};
+  }
+  const auto parts = data_parts(uri);
+  if (!parts) return uri_error("INVALID_URI", fmt::format("expected data:TYPE;base64,..., found \"{}\"", shown(uri)));
+  const auto text = unescaped(parts->payload);
+  if (parts->is_base64 && !base64_digits(text ? std::string_view(*text) : parts->payload))
+    return uri_error("INVALID_URI", "the data URI is not valid base64");
+  return Done{};
+}
+
 Result<DataUri> decode_data_uri(std::string_view uri, std::uint64_t max_bytes) {
-  const std::size_t comma = uri.find(',');
-  if (!is_data_uri(uri) || comma == std::string_view::npos)
-    return uri_error("INVALID_URI", fmt::format("expected data:TYPE;base64,..., found \"{}\"", shown(uri)));
-  const std::string_view head = uri.substr(5, comma - 5), payload = uri.substr(comma + 1);
-  if (!head.ends_with(";base64"))
-    return uri_error("INVALID_URI", fmt::format("expected a data URI in base64, found \"{}\"", shown(uri.substr(0, comma))));
-  if (payload.size() / 4 * 3 > max_bytes)
+  if (auto form = check_uri(uri); !form) return form.error();
+  const auto parts = data_parts(uri);
+  if (!parts) return uri_error("INVALID_URI", "expected a data URI");
+  if (parts->payload.size() / 4 * 3 > max_bytes)
     return uri_error("LIMIT_EXCEEDED",
-                     fmt::format("a data URI of about {} bytes is over the limit of {}", payload.size() / 4 * 3, max_bytes));
-  auto bytes = base64_decoded(payload);
-  if (!bytes) return uri_error("INVALID_BASE64", "the data URI is not valid base64");
-  DataUri result{std::string(head.substr(0, head.find(';'))), std::move(*bytes)};
-  std::transform(result.mime_type.begin(), result.mime_type.end(), result.mime_type.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+                     fmt::format("a data URI of about {} bytes is over the limit of {}", parts->payload.size() / 4 * 3, max_bytes));
+  const auto text = unescaped(parts->payload);
+  const std::string_view payload = text ? std::string_view(*text) : parts->payload;
+  DataUri result{mime_type_of(uri), {}};
+  if (parts->is_base64) {
+    result.bytes = base64_decoded(payload.substr(0, base64_digits(payload).value_or(0)));
+  } else {
+    result.bytes.assign(payload.begin(), payload.end());
+  }
   return result;
+}
+
+std::vector<std::byte> head_of_data_uri(std::string_view uri, std::size_t bytes) {
+  const std::size_t comma = uri.find(',');
+  // Three letters (a percent-encoded one) to a digit, four digits to three bytes.
+  const std::string_view begin = comma == std::string_view::npos ? uri : uri.substr(0, comma + 1);
+  std::string_view payload = uri.substr(begin.size(), (bytes + 2) / 3 * 12);
+  payload = payload.substr(0, payload.size() / 4 * 4);
+  const auto data = decode_data_uri(std::string(begin) + std::string(payload), payload.size() + 1);
+  std::vector<std::byte> head;
+  if (data)
+    for (std::size_t i = 0; i < std::min(bytes, data->bytes.size()); ++i) head.push_back(static_cast<std::byte>(data->bytes[i]));
+  return head;
+}
+
+bool is_relative(std::string_view uri) {
+  return !has_scheme(uri) && !uri.starts_with('/') && uri.find_first_of("?#") == std::string_view::npos;
 }
 
 Result<std::filesystem::path> file_inside(const std::filesystem::path& folder, std::string_view uri) {
@@ -124,12 +187,12 @@ Result<std::filesystem::path> file_inside(const std::filesystem::path& folder, s
 
   std::error_code failure;
   const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, failure);
-  if (failure) return uri_error("FILE_MISSING", fmt::format("the asset's folder cannot be resolved: {}", failure.message()));
+  if (failure) return uri_error("IO_ERROR", fmt::format("the asset's folder cannot be resolved: {}", failure.message()));
   const fs::path found = fs::canonical(root / relative, failure);
-  if (failure) return uri_error("FILE_MISSING", fmt::format("\"{}\" cannot be found: {}", shown(*decoded), failure.message()));
+  if (failure) return uri_error("IO_ERROR", fmt::format("\"{}\" cannot be found: {}", shown(*decoded), failure.message()));
   // Both are free of links and dots now: inside means that the folder's parts are the first parts of the file's.
   if (std::mismatch(root.begin(), root.end(), found.begin(), found.end()).first != root.end()) return outside();
-  if (!fs::is_regular_file(found, failure)) return uri_error("FILE_MISSING", fmt::format("\"{}\" is not a regular file", shown(*decoded)));
+  if (!fs::is_regular_file(found, failure)) return uri_error("IO_ERROR", fmt::format("\"{}\" is not a regular file", shown(*decoded)));
   // Not the canonical form: messages and exported scenes should name the file as the user knows it.
   return folder / relative;
 }

@@ -3,6 +3,7 @@
 
 #include "etendue/result.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -16,11 +17,19 @@ struct DataUri {
   std::vector<std::uint8_t> bytes;
 };
 bool is_data_uri(std::string_view uri);
-// RFC 2397 with ;base64. Errors: INVALID_URI, INVALID_BASE64, LIMIT_EXCEEDED.
+// RFC 2397, base64 or percent-encoded. Errors: INVALID_URI, LIMIT_EXCEEDED.
 Result<DataUri> decode_data_uri(std::string_view uri, std::uint64_t max_bytes);
 
+// Without decoding: whether decode_data_uri() could, its type, and its first bytes.
+Status check_uri(std::string_view uri);
+std::string mime_type_of(std::string_view data_uri);
+std::vector<std::byte> head_of_data_uri(std::string_view data_uri, std::size_t bytes);
+
+// Without a scheme, an authority, a leading slash, a query or a fragment (RFC 3986).
+bool is_relative(std::string_view uri);
+
 // The existing regular file that a relative reference names. Refused: schemes, absolute paths, "..", backslashes, NUL (all after
-// percent-decoding), and links that lead out of `folder`. Errors: INVALID_URI, PATH_OUTSIDE_FOLDER, FILE_MISSING.
+// percent-decoding), and links that lead out of `folder`. Errors: INVALID_URI, PATH_OUTSIDE_FOLDER, IO_ERROR.
 Result<std::filesystem::path> file_inside(const std::filesystem::path& folder, std::string_view uri);
 
 }  // namespace etendue::gltf
