@@ -4,6 +4,8 @@
 #include "etendue/io.h"
 #include "importers/gltf/gltf.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -56,6 +58,15 @@ inline std::string base64(const std::vector<std::uint8_t>& bytes) {
   return out;
 }
 
+// A picture of one pixel.
+inline std::vector<std::uint8_t> png() {
+  return {0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0,    0,    0,    0x0D, 0x49, 0x48, 0x44, 0x52, 0, 0,
+          0,    1,    0,    0,    0,    1,    8,    6,    0,    0,    0,    0x1F, 0x15, 0xC4, 0x89, 0,    0, 0,
+          0x0D, 0x49, 0x44, 0x41, 0x54, 0x78, 0xDA, 0x63, 0x64, 0xF8, 0xCF, 0x50, 0x0F, 0,    3,    0x86, 1, 0x80,
+          0x5A, 0x34, 0x7D, 0x6B, 0,    0,    0,    0,    0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
+}
+inline std::string png_uri() { return "data:image/png;base64," + base64(png()); }
+
 class GltfBuilder {
  public:
   Json json = Json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}]})");
@@ -76,8 +87,18 @@ class GltfBuilder {
     return static_cast<int>(json["accessors"].size()) - 1;
   }
   int floats(const std::vector<float>& values, const char* type) {
-    const std::size_t width = type == std::string("VEC3") ? 3 : 2;
-    return accessor({{"bufferView", view(values)}, {"componentType", 5126}, {"count", values.size() / width}, {"type", type}});
+    const std::size_t width = type == std::string("VEC2") ? 2 : type == std::string("VEC3") ? 3 : 4;
+    std::vector<float> least(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(width)), most = least;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      least[i % width] = std::min(least[i % width], values[i]);
+      most[i % width] = std::max(most[i % width], values[i]);
+    }
+    return accessor({{"bufferView", view(values)},
+                     {"componentType", 5126},
+                     {"count", values.size() / width},
+                     {"type", type},
+                     {"min", least},
+                     {"max", most}});
   }
   template <class T>
   int indices(const std::vector<T>& values) {

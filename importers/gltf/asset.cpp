@@ -1,6 +1,7 @@
 #include "asset.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -8,8 +9,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "check_document.h"
 #include "container.h"
 #include "mapped_file.h"
+#include "repairs.h"
 #include "uri.h"
 
 namespace etendue::gltf {
@@ -35,17 +38,20 @@ bool ignore_image(tinygltf::Image*, int, std::string*, std::string*, int, int, c
 // A GLB's header and those of its two chunks.
 constexpr std::size_t glb_overhead = 12 + 8 + 8;
 
-constexpr std::size_t max_json_bytes = std::size_t{1} << 29;
+// What a JSON text becomes in memory, in bytes a byte and a value: the document, and where its values stand.
+constexpr std::uint64_t memory_per_byte = 32, memory_per_value = 256;
 
-// What the schema asks of an object by the value of its "type".
-void check_conditional(const Json& objects, const std::string& pointer, const char* type, const char* needed, Asset& asset) {
-  if (!objects.is_array()) return;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    const Json& object = objects[i];
-    if (object.is_object() && object.contains("type") && object["type"] == type && !object.contains(needed))
-      asset.error("UNDEFINED_PROPERTY", fmt::format("expected the property \"{}\" of the type \"{}\", which is missing", needed, type),
-                  pointer + "/" + std::to_string(i));
-  }
+bool is_named_glb(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".glb";
+}
+
+// Of a place that counts lines and columns from 1.
+std::size_t offset_in(std::string_view text, const Where& where) {
+  std::size_t line_start = 0;
+  for (int line = 1; line < where.line; ++line) line_start = std::min(text.size(), text.find('\n', line_start) + 1);
+  return line_start + static_cast<std::size_t>(std::max(where.column - 1, 0));
 }
 
 std::vector<std::string> tokens_of(const std::string& pointer) {
@@ -66,82 +72,99 @@ Result<std::unique_ptr<Asset>> Asset::open(const std::filesystem::path& file, co
   asset->options_ = options;
   const auto bytes = map_file(file, options.max_bytes);
   if (!bytes) return bytes.error();
-  auto container = open_container(bytes->bytes());
-  if (!container) {
-    container.error().where.file = file.string();
-    return container.error();
+  std::vector<Diagnostic> faults;
+  const auto container = open_container(bytes->bytes(), is_named_glb(file), faults);
+  for (Diagnostic& fault : faults) {
+    fault.where.file = file.string();
+    asset->add(std::move(fault));
   }
+  if (!container) return asset->stopped();
   const auto part = [&](const void* first, std::size_t size) {
     return bytes->part(static_cast<std::size_t>(static_cast<const std::uint8_t*>(first) - bytes->data()), size);
   };
   asset->document_ = part(container->json.data(), container->json.size());
   if (container->binary) asset->binary_ = part(container->binary->data(), container->binary->size());
-  const bool glb = is_glb(bytes->bytes());
-  asset->stats.bytes_read = asset->document_.size() + (glb ? glb_overhead : 0);
+  asset->is_glb_ = container->is_glb;
+  asset->json_offset_ = container->json_offset;
+  asset->stats.bytes_read = asset->document_.size() + (container->is_glb ? glb_overhead : 0);
   will_read_all(asset->document_);
-  if (auto parsed = asset->parse(container->json, !glb); !parsed) return parsed.error();
-  if (auto version = asset->check_version(); !version) return version.error();
-
-  SchemaFindings findings = check_schema(*asset->json_, options.max_items);
-  for (Diagnostic& diagnostic : findings.diagnostics) {
-    diagnostic.where = asset->at(diagnostic.where.pointer);
-    asset->add(std::move(diagnostic));
-  }
-  asset->extensions_ = std::move(findings.extensions);
+  if (!asset->parse(container->json)) return asset->stopped();
+  if (!asset->check()) return asset->stopped();
   asset->load_model();
   return asset;
 }
 
-Status Asset::parse(std::string_view text, bool is_text_file) {
-  if (text.size() > max_json_bytes)
-    return failure("LIMIT_EXCEEDED", fmt::format("{} bytes of JSON are over the limit of {}", text.size(), max_json_bytes), "");
+bool Asset::check() {
+  Findings findings;
+  const bool readable = check_version(*json_, findings);
+  if (readable) extensions_ = check_document(*json_, is_glb_, options_, findings).extensions;
+  for (Diagnostic& diagnostic : findings.take()) {
+    diagnostic.where = at(diagnostic.where.pointer);
+    add(std::move(diagnostic));
+  }
+  return readable;
+}
+
+// The first error, the others as its notes.
+Error Asset::stopped() {
+  Error first{"READ_FAILED", "the file cannot be read", {file_.string(), 0, 0, ""}, {}, {}};
+  bool found = false;
+  for (const Diagnostic& diagnostic : diagnostics_.all()) {
+    if (found || diagnostic.severity != Severity::error) {
+      first.notes.push_back(diagnostic);
+    } else {
+      first = {diagnostic.code, diagnostic.text, diagnostic.where, diagnostic.hint, std::move(first.notes)};
+      found = true;
+    }
+  }
+  return first;
+}
+
+bool Asset::parse(std::string_view text) {
+  const auto fail = [&](const char* code, std::string problem, const Where& where, std::string hint = {}) {
+    Where place = where;
+    place.file = file_.string();
+    if (is_glb_) {
+      place.offset = static_cast<std::int64_t>(json_offset_ + offset_in(text, where));
+      place.line = place.column = 0;
+    }
+    add({Severity::error, code, std::move(problem), place, std::move(hint)});
+    return false;
+  };
+  const Where begin{{}, 1, 1, {}};
+  if (text.size() > options_.max_memory / memory_per_byte)
+    return fail("LIMIT_EXCEEDED",
+                over_limit(fmt::format("the memory for {} bytes of JSON", text.size()), "max_memory", options_.max_memory), begin,
+                limit_hint("max_memory"));
+  if (text.starts_with("\xEF\xBB\xBF")) fail("INVALID_JSON", "expected UTF-8 without a byte order mark", begin);
   JsonLimits limits;
   limits.max_depth = options_.max_depth;
+  limits.max_values = std::min<std::uint64_t>(limits.max_values, options_.max_memory / memory_per_value);
   auto document = JsonDocument::parse(text, file_.string(), limits);
   if (!document) {
-    if (!is_text_file) document.error().where = {file_.string(), 0, 0, document.error().where.pointer};
-    return document.error();
+    const Error& error = document.error();
+    if (error.code == "JSON_TOO_DEEP")
+      return fail("LIMIT_EXCEEDED", over_limit("the nesting", "max_depth", static_cast<unsigned>(options_.max_depth)), error.where,
+                  limit_hint("max_depth"));
+    if (error.code == "JSON_TOO_LARGE")
+      return fail("LIMIT_EXCEEDED", over_limit("the memory for " + error.text, "max_memory", options_.max_memory), error.where,
+                  limit_hint("max_memory"));
+    return fail(error.text.starts_with("number overflow") ? "VALUE_NOT_IN_RANGE" : "INVALID_JSON", error.text, error.where);
   }
-  for (const JsonValue& duplicate : document->duplicate_keys())
-    add({Severity::error,
-         "DUPLICATE_PROPERTY",
-         fmt::format("the member \"{}\" stands here a second time", duplicate.key()),
-         is_text_file ? duplicate.where_key() : Where{file_.string(), 0, 0, duplicate.pointer()},
-         {}});
-  if (is_text_file) text_ = std::move(*document);
+  text_ = std::move(*document);
+  for (const JsonValue& duplicate : text_->duplicate_keys())
+    fail("DUPLICATE_PROPERTY", fmt::format("the member \"{}\" stands here a second time", duplicate.key()), duplicate.where_key());
   try {
     json_ = std::make_unique<Json>(Json::parse(text.begin(), text.end()));
   } catch (const Json::exception& e) {
-    return failure("INVALID_JSON", e.what(), "");
+    return fail("INVALID_JSON", e.what(), begin);
   }
-  if (!json_->is_object()) return failure("TYPE_MISMATCH", "expected a JSON object at the root", "");
-  return Done{};
-}
-
-Status Asset::check_version() const {
-  const auto asset = json_->find("asset");
-  if (asset == json_->end() || !asset->is_object() || !asset->contains("version") || !(*asset)["version"].is_string())
-    return failure("UNDEFINED_PROPERTY", "expected asset.version, as every glTF has it", "/asset");
-  for (const char* key : {"version", "minVersion"}) {
-    if (!asset->contains(key) || !(*asset)[key].is_string()) continue;
-    const auto version = (*asset)[key].get<std::string>();
-    const bool minimum = std::strcmp(key, "minVersion") == 0;
-    if (minimum ? version != "2.0" : !version.starts_with("2."))
-      return failure(minimum ? "UNKNOWN_ASSET_MINOR_VERSION" : "UNKNOWN_ASSET_MAJOR_VERSION",
-                     fmt::format("expected {}, found \"{}\"", minimum ? "\"2.0\"" : "version 2.x", version), pointer_to("/asset", key));
-  }
-  return Done{};
+  if (!json_->is_object()) return fail("TYPE_MISMATCH", "expected an object", text_->root().where());
+  return true;
 }
 
 void Asset::load_model() {
   const Json& root = *json_;
-  if (root.contains("cameras")) {
-    check_conditional(root["cameras"], "/cameras", "perspective", "perspective", *this);
-    check_conditional(root["cameras"], "/cameras", "orthographic", "orthographic", *this);
-  }
-  const Json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-  if (root.contains(lights)) check_conditional(root.at(lights), lights.to_string(), "spot", "spot", *this);
-
   // What tinygltf is to make its model of: the other members are read from the document, or have bytes behind them.
   std::string text = "{";
   for (const char* key :
@@ -164,7 +187,7 @@ void Asset::load_model() {
   if (loaded) return;
   while (!problems.empty() && problems.back() == '\n') problems.pop_back();
   model_ = {};
-  error("INVALID_GLTF", "the document cannot be read: " + problems, "");
+  if (errors_ == 0) error("INVALID_GLTF", "the document cannot be read: " + problems, "");  // else it is said already
 }
 
 const Json* Asset::extension(const std::string& pointer, const char* name) const {
@@ -182,6 +205,10 @@ Where Asset::at(const std::string& pointer) const {
     if (!next) break;
     value = next;
   }
+  if (is_glb_) {
+    where.offset = static_cast<std::int64_t>(json_offset_ + value.offset());
+    return where;
+  }
   const Where found = value.where();
   where.line = found.line;
   where.column = found.column;
@@ -193,6 +220,16 @@ Error Asset::failure(std::string code, std::string text, const std::string& poin
 }
 
 void Asset::add(Diagnostic diagnostic) {
+  // What a check of the document has found is found again where it is in the way of reading.
+  if (!known_.insert(diagnostic.code + diagnostic.where.pointer + "@" + std::to_string(diagnostic.where.offset)).second &&
+      !diagnostic.where.pointer.empty())
+    return;
+  if (diagnostic.severity == Severity::error && options_.tolerant) {
+    if (const char* repair = repair_of(diagnostic.code)) {
+      diagnostic.severity = Severity::warning;
+      diagnostic.text += fmt::format("; repaired: {}", repair);
+    }
+  }
   std::size_t& count = diagnostic.severity == Severity::error ? errors_ : others_;
   if (++count > max_findings + 1) return;
   if (count == max_findings + 1)
@@ -256,7 +293,7 @@ Result<SharedBytes> Asset::open_buffer(const Json& buffer, bool first, const std
     if (!first || !binary_)
       return failure("BUFFER_MISSING_GLB_DATA", "a buffer without uri stands for the binary chunk of a GLB, and there is none", pointer);
     if (binary_.size() < byte_length)
-      return failure("BUFFER_GLB_CHUNK_TOO_SMALL",
+      return failure("BUFFER_BYTE_LENGTH_MISMATCH",
                      fmt::format("expected {} bytes in the binary chunk, found {}", byte_length, binary_.size()), pointer);
     return binary_.part(0, byte_length);
   }

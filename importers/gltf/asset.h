@@ -16,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -60,8 +61,10 @@ class Asset {
 
  private:
   Asset() = default;
-  Status parse(std::string_view text, bool is_text_file);
-  Status check_version() const;
+  // False: nothing can be read; why not is in the diagnostics.
+  bool parse(std::string_view text);
+  bool check();
+  Error stopped();
   void load_model();
   Result<SharedBytes> open_buffer(const nlohmann::json& buffer, bool first, const std::string& pointer);
   Result<SharedBytes> part_of_buffer(int buffer, std::size_t offset, std::size_t length, const std::string& pointer);
@@ -74,8 +77,11 @@ class Asset {
   std::vector<ExtensionUse> extensions_;
   std::map<int, SharedBytes> buffers_, views_;
   std::uint64_t buffer_bytes_read_ = 0;
-  std::optional<JsonDocument> text_;  // where each value stands in a .gltf; not for a GLB, whose lines nobody sees
+  std::optional<JsonDocument> text_;  // where each value stands: lines in a .gltf, bytes in a GLB
+  bool is_glb_ = false;
+  std::size_t json_offset_ = 0;
   Diagnostics diagnostics_;
+  std::set<std::string> known_;  // what they say, and where
   std::size_t errors_ = 0, others_ = 0;
 };
 

@@ -60,9 +60,11 @@ bool check_version(const Json& root, Findings& findings) {
   const auto least = root["asset"].find("minVersion");
   if (least != root["asset"].end() && matches(*least, minimum)) {
     const auto needed = version_of(least->get_ref<const std::string&>());
-    if (needed > std::pair(major, minor))
+    if (needed > std::pair(major, minor)) {
       findings.error("ASSET_MIN_VERSION_GREATER_THAN_VERSION",
                      fmt::format("minVersion {} is greater than version {}", shown(*least), shown(*found)), minimum);
+      return false;
+    }
     if (major == 2 && needed > std::pair(2, 0)) {
       findings.error("UNKNOWN_ASSET_MINOR_VERSION", fmt::format("expected a minVersion up to 2.0, found {}", shown(*least)), minimum);
       return false;
@@ -77,9 +79,9 @@ bool check_version(const Json& root, Findings& findings) {
   return true;
 }
 
-SchemaFindings check_document(Json& root, bool is_glb, std::size_t max_items, Findings& findings) {
-  SchemaFindings schema = check_schema(root, max_items, findings);
-  Checks checks{root, findings, schema, Records(root), is_glb};
+SchemaFindings check_document(Json& root, bool is_glb, const ImportOptions& options, Findings& findings) {
+  SchemaFindings schema = check_schema(root, options.max_items, findings);
+  Checks checks{root, findings, schema, Records(root), is_glb, options.max_depth, {}, {}, true};
   check_extensions(checks);
   check_buffers(checks);
   check_accessors(checks);

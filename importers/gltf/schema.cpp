@@ -218,7 +218,7 @@ class Checker {
     if (x < 0) return findings_.error("INVALID_INDEX", fmt::format("expected an index, found {}", shown(value)), path);
     const Json::json_pointer target(property.of);
     const Json* array = root_.contains(target) ? &root_.at(target) : nullptr;
-    if (array == nullptr && std::string_view(property.of).starts_with("/extensions/"))
+    if (array == nullptr && std::string_view(property.of).starts_with("/extensions/") && !root_.contains(target.parent_pointer()))
       return findings_.error("UNSATISFIED_DEPENDENCY", fmt::format("expected {}, which is missing", property.of), path);
     const std::size_t size = array != nullptr && array->is_array() ? array->size() : 0;
     if (!(x < static_cast<double>(size)))

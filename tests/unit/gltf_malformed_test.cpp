@@ -42,7 +42,7 @@ TEST_P(GltfDefect, IsAnErrorAtItsPlace) {
 const Defect defects[] = {
     {"IndexAccessor", [](GltfBuilder& g) { g.primitive()["attributes"]["POSITION"] = 99; }, "UNRESOLVED_REFERENCE",
      "/meshes/0/primitives/0/attributes/POSITION"},
-    {"IndexNegative", [](GltfBuilder& g) { g.json["nodes"][0]["mesh"] = -1; }, "UNRESOLVED_REFERENCE", "/nodes/0/mesh"},
+    {"IndexNegative", [](GltfBuilder& g) { g.json["nodes"][0]["mesh"] = -1; }, "INVALID_INDEX", "/nodes/0/mesh"},
     {"IndexHuge", [](GltfBuilder& g) { g.json["nodes"][0]["mesh"] = 18446744073709551615u; }, "UNRESOLVED_REFERENCE", "/nodes/0/mesh"},
     {"IndexFraction", [](GltfBuilder& g) { g.json["nodes"][0]["mesh"] = 0.5; }, "TYPE_MISMATCH", "/nodes/0/mesh"},
     {"IndexText", [](GltfBuilder& g) { g.json["nodes"][0]["mesh"] = "0"; }, "TYPE_MISMATCH", "/nodes/0/mesh"},
@@ -89,7 +89,7 @@ const Defect defects[] = {
      [](GltfBuilder& g) {
        g.json["buffers"] = Json::array({{{"byteLength", 3}, {"uri", "data:;base64,A*AA"}}});
      },
-     "INVALID_BASE64", "/buffers/0/uri"},
+     "INVALID_URI", "/buffers/0/uri"},
     {"Misaligned",
      [](GltfBuilder& g) {
        g.bytes.resize(g.bytes.size() + 4);
@@ -179,7 +179,7 @@ const Defect defects[] = {
      [](GltfBuilder& g) {
        g.json["buffers"] = Json::array({{{"byteLength", 64}, {"uri", "$(touch here).bin"}}});
      },
-     "FILE_MISSING", "/buffers/0/uri"},
+     "IO_ERROR", "/buffers/0/uri"},
     {"BufferNul",
      [](GltfBuilder& g) {
        g.json["buffers"] = Json::array({{{"byteLength", 64}, {"uri", "a%00.bin"}}});
@@ -208,10 +208,14 @@ const Defect defects[] = {
      },
      "KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES", "/extensions/KHR_lights_punctual/lights/0/spot"},
     {"NegativeIntensity",
-     [](GltfBuilder& g) { g.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "point", "intensity": -1}])"); },
+     [](GltfBuilder& g) {
+       g.json["extensionsUsed"] = {"KHR_lights_punctual"};
+       g.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "point", "intensity": -1}])");
+     },
      "VALUE_NOT_IN_RANGE", "/extensions/KHR_lights_punctual/lights/0/intensity"},
     {"LightIndex",
      [](GltfBuilder& g) {
+       g.json["extensionsUsed"] = {"KHR_lights_punctual"};
        g.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "point"}])");
        g.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 1;
      },
@@ -296,7 +300,7 @@ TEST(GltfMalformed, RandomDamageIsSurvived) {
   gltf.primitive()["material"] = 0;
   gltf.json["materials"] = Json::parse(R"([{"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}}])");
   gltf.json["textures"] = Json::parse(R"([{"source": 0}])");
-  gltf.json["images"] = Json::array({{{"bufferView", gltf.view<std::uint8_t>({1, 2, 3})}, {"mimeType", "image/png"}}});
+  gltf.json["images"] = Json::array({{{"bufferView", gltf.view(png())}, {"mimeType", "image/png"}}});
   gltf.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
   gltf.json["extensionsUsed"] = {"KHR_lights_punctual"};
   gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "spot", "spot": {"outerConeAngle": 0.5}}])");
