@@ -97,7 +97,7 @@ Result<std::unique_ptr<Asset>> Asset::open(const std::filesystem::path& file, co
 bool Asset::check() {
   Findings findings;
   const bool readable = check_version(*json_, findings);
-  if (readable) extensions_ = check_document(*json_, is_glb_, options_, findings).extensions;
+  if (readable) schema_ = check_document(*json_, is_glb_, options_, findings);
   for (Diagnostic& diagnostic : findings.take()) {
     diagnostic.where = at(diagnostic.where.pointer);
     add(std::move(diagnostic));
@@ -193,6 +193,11 @@ void Asset::load_model() {
 const Json* Asset::extension(const std::string& pointer, const char* name) const {
   const Json::json_pointer place(pointer + "/extensions/" + name);
   return json_->contains(place) && json_->at(place).is_object() ? &json_->at(place) : nullptr;
+}
+
+bool Asset::is_used(const std::string& array, std::size_t index) const {
+  const auto found = schema_.used.find(array);
+  return found != schema_.used.end() && index < found->second.size() && found->second[index];
 }
 
 // The place of the value, or of the nearest one around it where something is missing.

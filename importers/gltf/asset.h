@@ -35,7 +35,10 @@ class Asset {
   const nlohmann::json& json() const { return *json_; }
   // The object of an extension of the object at `pointer`, if there is one.
   const nlohmann::json* extension(const std::string& pointer, const char* name) const;
-  const std::vector<ExtensionUse>& extensions() const { return extensions_; }
+  const std::vector<ExtensionUse>& extensions() const { return schema_.extensions; }
+  bool is_used(const std::string& array, std::size_t index) const;  // whether an index points to the element of "/buffers" ...
+  bool is_glb() const { return is_glb_; }
+  std::size_t binary_size() const { return binary_.size(); }  // of a GLB's binary chunk
   const ImportOptions& options() const { return options_; }
   const std::filesystem::path& folder() const { return folder_; }
 
@@ -74,7 +77,7 @@ class Asset {
   SharedBytes document_, binary_;  // of the mapped file; `binary_` is there in a GLB alone
   std::unique_ptr<nlohmann::json> json_;
   tinygltf::Model model_;
-  std::vector<ExtensionUse> extensions_;
+  SchemaFindings schema_;
   std::map<int, SharedBytes> buffers_, views_;
   std::uint64_t buffer_bytes_read_ = 0;
   std::optional<JsonDocument> text_;  // where each value stands: lines in a .gltf, bytes in a GLB

@@ -5,6 +5,7 @@
 #include <exception>
 #include <string_view>
 
+#include "check_data.h"
 #include "container.h"
 #include "nodes.h"
 #include "unrepresented.h"
@@ -37,6 +38,7 @@ class GltfImporter final : public Importer {
       Imported imported;
       imported.scene.file = file.string();
       imported.scene.format = "gltf";
+      if (options.need == Need::everything) gltf::check_data(**asset);
       gltf::name_unrepresented(**asset);
       gltf::Nodes(**asset, imported.scene).read_default_scene();
       imported.diagnostics = (*asset)->take_diagnostics();
