@@ -1,13 +1,13 @@
 // Exposure values and plain factors, many at once.
 #include "etendue/batch.h"
 
+#include "batch_error.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "batch_exposure.cpp"  // this file: compiled again for each instruction set
 #include <hwy/foreach_target.h>
 
 #include "simd-inl.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,14 +77,10 @@ HWY_EXPORT(Scaled);
 HWY_EXPORT(LuminanceOfEv100);
 HWY_EXPORT(Ev100OfLuminance);
 
-Error sizes_differ(std::size_t in, std::size_t out) {
-  return {"BATCH_SIZES_DIFFER", fmt::format("expected an output of {} elements, as many as the input has, found {}", in, out), {}, {}, {}};
-}
-
 }  // namespace
 
 Status scaled(std::span<const float> in, double factor, std::span<float> out) {
-  if (in.size() != out.size()) return sizes_differ(in.size(), out.size());
+  if (in.size() != out.size()) return batch_sizes_differ(in.size(), out.size());
   const double held = std::clamp<double>(factor, -std::numeric_limits<float>::max(), std::numeric_limits<float>::max());
   auto rounded = static_cast<float>(held);
   if (std::abs(rounded) > std::abs(held)) rounded = std::nextafter(rounded, 0.0f);
@@ -95,14 +91,14 @@ Status scaled(std::span<const float> in, double factor, std::span<float> out) {
 
 BatchOutcome luminance_of_ev100(std::span<const float> ev100, const Calibration& calibration, std::span<float> luminance_cd_m2,
                                 float where_none) {
-  if (ev100.size() != luminance_cd_m2.size()) return sizes_differ(ev100.size(), luminance_cd_m2.size());
+  if (ev100.size() != luminance_cd_m2.size()) return batch_sizes_differ(ev100.size(), luminance_cd_m2.size());
   return HWY_DYNAMIC_DISPATCH(LuminanceOfEv100)(ev100.data(), static_cast<float>(calibration.meter_k / 100), luminance_cd_m2.data(),
                                                 ev100.size(), where_none);
 }
 
 BatchOutcome ev100_of_luminance(std::span<const float> luminance_cd_m2, const Calibration& calibration, std::span<float> ev100,
                                 float where_none) {
-  if (luminance_cd_m2.size() != ev100.size()) return sizes_differ(luminance_cd_m2.size(), ev100.size());
+  if (luminance_cd_m2.size() != ev100.size()) return batch_sizes_differ(luminance_cd_m2.size(), ev100.size());
   const double shift = std::log2(calibration.meter_k / 100), whole = std::round(shift);
   return HWY_DYNAMIC_DISPATCH(Ev100OfLuminance)(luminance_cd_m2.data(), static_cast<float>(whole), static_cast<float>(shift - whole),
                                                 ev100.data(), luminance_cd_m2.size(), where_none);

@@ -1,4 +1,6 @@
 #include "etendue/colour.h"
+
+#include "etendue/colour_space.h"
 #include "planck_locus.h"
 
 #include <fmt/format.h>
@@ -10,26 +12,7 @@
 namespace etendue {
 namespace {
 
-// A 3x3 matrix by its columns.
-struct Matrix {
-  Vec3d a, b, c;
-  constexpr Vec3d operator*(const Vec3d& v) const { return a * v.x + b * v.y + c * v.z; }
-};
-constexpr Matrix inverse(const Matrix& m) {
-  const Vec3d bc = cross(m.b, m.c), ca = cross(m.c, m.a), ab = cross(m.a, m.b);
-  const double determinant = dot(m.a, bc);
-  return {Vec3d{bc.x, ca.x, ab.x} / determinant, Vec3d{bc.y, ca.y, ab.y} / determinant, Vec3d{bc.z, ca.z, ab.z} / determinant};
-}
-
-constexpr Vec3d xyz_of(double x, double y) { return {x / y, 1, (1 - x - y) / y}; }
-// Columns are the primaries, each scaled so that R = G = B = 1 is the white with Y = 1.
-constexpr Matrix rgb_to_xyz_of(const Vec3d& r, const Vec3d& g, const Vec3d& b, const Vec3d& white) {
-  const Vec3d scale = inverse({r, g, b}) * white;
-  return {r * scale.x, g * scale.y, b * scale.z};
-}
-// ITU-R BT.709: primaries, and D65 as it rounds it.
-constexpr Matrix rgb_to_xyz = rgb_to_xyz_of(xyz_of(0.64, 0.33), xyz_of(0.30, 0.60), xyz_of(0.15, 0.06), xyz_of(0.3127, 0.3290));
-constexpr Matrix xyz_to_rgb = inverse(rgb_to_xyz);
+constexpr Matrix3 from_rec709 = rgb_to_xyz(rec709), to_rec709 = xyz_to_rgb(rec709);
 
 Error out_of_range(const char* what, double temperature_K, double low, double high) {
   return {"TEMPERATURE_OUT_OF_RANGE",
@@ -86,13 +69,13 @@ Result<Chromaticity> daylight_or_planckian(double temperature_K) {
 Rgb to_rgb(const Chromaticity& xy) {
   // Any multiple of XYZ will do: it is scaled to luminance_of = 1 afterwards. The scale differs from the matrix' own middle row
   // (.212639, .715169, .072192) by less than 1e-4 for lights near white.
-  const Rgb rgb = xyz_to_rgb * Vec3d{xy.x, xy.y, 1 - xy.x - xy.y};
+  const Rgb rgb = to_rec709 * Vec3d{xy.x, xy.y, 1 - xy.x - xy.y};
   const double luminance = luminance_of(rgb);
   return xy.y > 0 && luminance > 0 ? rgb / luminance : Rgb{0, 0, 0};
 }
 
 Chromaticity to_chromaticity(const Rgb& rgb) {
-  const Vec3d xyz = rgb_to_xyz * rgb;
+  const Vec3d xyz = from_rec709 * rgb;
   const double sum = xyz.x + xyz.y + xyz.z;
   return sum != 0 ? Chromaticity{xyz.x / sum, xyz.y / sum} : Chromaticity{0, 0};
 }
