@@ -88,8 +88,8 @@ TEST(ColourSpace, BadInput) {
     EXPECT_EQ(to_space(bad, rec709, {}).error().code, "CHROMATICITY_INVALID");
     EXPECT_EQ(to_space({0.3, 0.3}, rec709, {Adaptation::cat02, bad}).error().code, "WHITE_POINT_INVALID");
   }
-  // A white so red that a cone's response is negative.
-  EXPECT_EQ(adaptation_matrix({0.1, 0.8}, {0.3, 0.3}, Adaptation::bradford).error().code, "WHITE_POINT_INVALID");
+  // A white so purple that a response is negative.
+  EXPECT_EQ(adaptation_matrix({0.7, 0.2}, {0.3, 0.3}, Adaptation::bradford).error().code, "WHITE_POINT_INVALID");
 }
 
 // Errata E19 of Frostbite 3.0: listing 30 offers powers of 2.2 instead; they are off by .0085 and .0335 and give NaN below 0.
