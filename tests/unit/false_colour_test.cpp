@@ -33,6 +33,7 @@ TEST(FalseColour, BandsAreAStopEach) {
   for (std::size_t i = 1; i < ev.size(); ++i) EXPECT_EQ(colours[i] != colours[i - 1], i % 100 == 0) << ev[i];
   // The same picture in lux on a logarithmic scale, 2.5 lx at EV 0.
   std::vector<float> lux;
+  lux.reserve(ev.size());
   for (const float x : ev) lux.push_back(static_cast<float>(2.5 * std::exp2(x + 0.001)));
   std::vector<Vec3f> same(ev.size());
   ASSERT_TRUE(false_colour(lux, {.least = 2.5, .greatest = 2.5 * 65536, .logarithmic = true, .bands = 16}, same).ok());
