@@ -16,13 +16,14 @@ namespace {
 constexpr int least_octave = -24, greatest_octave = 40, bins_an_octave = 128;
 constexpr std::size_t bin_count = static_cast<std::size_t>(greatest_octave - least_octave) * bins_an_octave;
 std::size_t bin_of(float positive) {
-  constexpr std::int64_t first = (127 + least_octave) * bins_an_octave;
+  constexpr std::int64_t first = std::int64_t{127 + least_octave} * bins_an_octave;
   const std::int64_t upper = std::bit_cast<std::uint32_t>(positive) >> 16;
   return static_cast<std::size_t>(std::clamp<std::int64_t>(upper - first, 0, bin_count - 1));
 }
 // log2 of the geometric middle.
 double log2_of_bin(std::size_t bin) {
-  const double octave = least_octave + static_cast<double>(bin / bins_an_octave), k = static_cast<double>(bin % bins_an_octave);
+  const int octave = least_octave + static_cast<int>(bin / bins_an_octave);
+  const auto k = static_cast<double>(bin % bins_an_octave);
   return octave + (std::log2(1 + k / bins_an_octave) + std::log2(1 + (k + 1) / bins_an_octave)) / 2;
 }
 
