@@ -1,6 +1,7 @@
 """Lamps by their colour temperature: chromaticity and linear Rec.709, and back from what a meter shows; a filter in front of them."""
 
 import numpy as np
+
 from etendue import Error, colour
 
 kelvin = np.array([2000.0, 2700, 3200, 4000, 5600, 6500, 10000])
