@@ -45,7 +45,11 @@ double unpack_small_float(std::uint32_t code, int m) {
   return std::ldexp(mantissa + (1 << m), exponent - 15 - m);
 }
 
-double round_half_up(double x) { return std::floor(x + 0.5); }
+// floor(x + 1/2), whose sum would round up for the double just below 1/2.
+double round_half_up(double x) {
+  const double whole = std::floor(x);
+  return x - whole < 0.5 ? whole : whole + 1;
+}
 std::uint8_t byte(double x) { return static_cast<std::uint8_t>(x); }
 constexpr double white_u = 0.19783, white_v = 0.46834;  // u', v' of D65
 

@@ -268,6 +268,7 @@ TEST(Rgb9e5, IsTheExtensionsRuleAtEveryEdge) {
   // .5 - 2^-25 of a unit, to which float arithmetic adds 1/2 and gets 1.
   const float just_below_half = std::ldexp(0.5F - 0x1p-25F, -24);
   EXPECT_EQ(pack_rgb9e5({just_below_half, 0, 0}, counts), 0U);
+  EXPECT_EQ(pack_rgb9e5({std::ldexp(0.5 - 0x1p-54, -24), 0, 0}, counts), 0U);  // the same in double
   EXPECT_EQ(pack_rgb9e5({std::ldexp(0.5, -24), 0, 0}, counts), 1U);
 }
 
