@@ -21,7 +21,8 @@ namespace {
 #include "colour_fits.inc"
 
 constexpr float coldest_K = 800, hottest_K = 100000;
-// X, Y and X + Y + Z, or R, G and B, of a Planckian radiator up to a common factor, as polynomials of s = 800 K / T.
+// X, Y and X + Y + Z, or R, G and B, of a Planckian radiator up to a common factor: polynomials of s = 800 K / T in colour_fits.inc, here
+// times t^7, t = T / 800 K, which saves a division. The factor 1e-30 makes room for t^7 up to the 10^9 that stand for infinity.
 constexpr std::size_t planckian_terms = std::size(planckian_s);
 using PlanckianPolynomials = std::array<std::array<float, planckian_terms>, 3>;
 }  // namespace
@@ -33,46 +34,53 @@ namespace etendue::HWY_NAMESPACE {
 namespace {
 
 template <class D, class V>
-HWY_INLINE V polynomial(D d, const std::array<float, planckian_terms>& c, V s) {
+HWY_INLINE V polynomial(D d, const std::array<float, planckian_terms>& c, V t) {
   V sum = hn::Set(d, c[planckian_terms - 1]);
-  for (std::size_t i = planckian_terms - 1; i-- > 0;) sum = hn::MulAdd(sum, s, hn::Set(d, c[i]));
+  for (std::size_t i = planckian_terms - 1; i-- > 0;) sum = hn::MulAdd(sum, t, hn::Set(d, c[i]));
   return sum;
 }
 
-// 800 K to 100000 K, and infinity, for which s = 0.
+template <class D, class V>
+HWY_INLINE V reduced(D d, V kelvin) {
+  return hn::Mul(hn::Min(kelvin, hn::Set(d, 1e9f * coldest_K)), hn::Set(d, 1 / coldest_K));
+}
+// 800 K to 100000 K, and infinity.
 template <class D, class V>
 HWY_INLINE auto has_planckian(D d, V kelvin) {
   return hn::And(hn::Ge(kelvin, hn::Set(d, coldest_K)), hn::Or(hn::Le(kelvin, hn::Set(d, hottest_K)), hn::IsInf(kelvin)));
 }
 
-std::size_t PlanckianXy(const float* kelvin, const PlanckianPolynomials& p, float* xy, std::size_t count, Vec2f where_none) {
+std::size_t PlanckianXy(const float* kelvin, const PlanckianPolynomials& polynomials, float* xy, std::size_t count, Vec2f where_none) {
   const hn::ScalableTag<float> d;
+  const PlanckianPolynomials p = polynomials;  // out of reach of what is written: its numbers stay in registers
   std::size_t without = 0;
   for_each_vector<1, 2>(d, kelvin, xy, count, coldest_K, [&](const float* from, float* to) {
-    const auto t = hn::LoadU(d, from);
-    const auto valid = has_planckian(d, t);
-    const auto s = hn::Div(hn::Set(d, coldest_K), t);
-    const auto scale = hn::Div(hn::Set(d, 1.0f), polynomial(d, p[2], s));
-    const auto x = hn::Mul(polynomial(d, p[0], s), scale), y = hn::Mul(polynomial(d, p[1], s), scale);
+    const auto k = hn::LoadU(d, from);
+    const auto valid = has_planckian(d, k);
+    const auto t = reduced(d, k);
+    const auto scale = hn::Div(hn::Set(d, 1.0f), polynomial(d, p[2], t));
+    const auto x = hn::Mul(polynomial(d, p[0], t), scale), y = hn::Mul(polynomial(d, p[1], t), scale);
     hn::StoreInterleaved2(hn::IfThenElse(valid, x, hn::Set(d, where_none.x)), hn::IfThenElse(valid, y, hn::Set(d, where_none.y)), d, to);
     without += hn::CountTrue(d, hn::Not(valid));
   });
   return without;
 }
 
-std::size_t PlanckianRgb(const float* kelvin, const PlanckianPolynomials& p, float* rgb, std::size_t count, Vec3f where_none) {
+std::size_t PlanckianRgb(const float* kelvin, const PlanckianPolynomials& polynomials, float* rgb, std::size_t count, Vec3f where_none) {
   const hn::ScalableTag<float> d;
+  const PlanckianPolynomials p = polynomials;
+  const StoreThree store(d);
   std::size_t without = 0;
   for_each_vector<1, 3>(d, kelvin, rgb, count, coldest_K, [&](const float* from, float* to) {
-    const auto t = hn::LoadU(d, from);
-    const auto valid = has_planckian(d, t);
-    const auto s = hn::Div(hn::Set(d, coldest_K), t);
-    const auto r = polynomial(d, p[0], s), g = polynomial(d, p[1], s), b = polynomial(d, p[2], s);
+    const auto k = hn::LoadU(d, from);
+    const auto valid = has_planckian(d, k);
+    const auto t = reduced(d, k);
+    const auto r = polynomial(d, p[0], t), g = polynomial(d, p[1], t), b = polynomial(d, p[2], t);
     const auto luminance = hn::MulAdd(r, hn::Set(d, 0.2126f), hn::MulAdd(g, hn::Set(d, 0.7152f), hn::Mul(b, hn::Set(d, 0.0722f))));
     const auto scale = hn::Div(hn::Set(d, 1.0f), luminance);
-    hn::StoreInterleaved3(hn::IfThenElse(valid, hn::Mul(r, scale), hn::Set(d, where_none.x)),
-                          hn::IfThenElse(valid, hn::Mul(g, scale), hn::Set(d, where_none.y)),
-                          hn::IfThenElse(valid, hn::Mul(b, scale), hn::Set(d, where_none.z)), d, to);
+    store(d, hn::IfThenElse(valid, hn::Mul(r, scale), hn::Set(d, where_none.x)),
+          hn::IfThenElse(valid, hn::Mul(g, scale), hn::Set(d, where_none.y)),
+          hn::IfThenElse(valid, hn::Mul(b, scale), hn::Set(d, where_none.z)), to);
     without += hn::CountTrue(d, hn::Not(valid));
   });
   return without;
@@ -119,7 +127,8 @@ PlanckianPolynomials polynomials(const Matrix3& from_xyz) {
   for (std::size_t k = 0; k < planckian_terms; ++k) {
     const double x = planckian_x[k], y = planckian_y[k];
     const Vec3d channels = from_xyz * Vec3d{x, y, planckian_s[k] - x - y};
-    for (int i = 0; i < 3; ++i) made[static_cast<std::size_t>(i)][k] = static_cast<float>(channels[i]);
+    constexpr double room = 1e-30;
+    for (int i = 0; i < 3; ++i) made[static_cast<std::size_t>(i)][planckian_terms - 1 - k] = static_cast<float>(channels[i] * room);
   }
   return made;
 }

@@ -13,11 +13,24 @@
 #include <cmath>
 #include <limits>
 
+#ifndef ETENDUE_BATCH_EXPOSURE_SHARED
+#define ETENDUE_BATCH_EXPOSURE_SHARED
+namespace etendue {
+namespace {
+// 2^EV K/100 = 2^(whole + f) factor, EV = whole - shift + f, factor = K/100 2^-shift near 1. EV is held where the luminance is a normal
+// float.
+struct EvScale {
+  float shift, factor, lowest_ev, highest_ev;
+};
+}  // namespace
+}  // namespace etendue
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace etendue::HWY_NAMESPACE {
 namespace {
 
-constexpr float least = std::numeric_limits<float>::min(), largest = std::numeric_limits<float>::max();
+constexpr float largest = std::numeric_limits<float>::max();
 
 // The factor as f (1 + rest), f rounded towards zero, since one float alone would cost up to an ulp more. rest > 0 keeps infinities from
 // meeting their opposites.
@@ -30,18 +43,18 @@ void Scaled(const float* in, float factor, float rest, float* out, std::size_t c
   });
 }
 
-// The limits keep the product a normal float.
-std::size_t LuminanceOfEv100(const float* ev100, float factor, float* luminance, std::size_t count, float where_none) {
+std::size_t LuminanceOfEv100(const float* ev100, EvScale scale, float* luminance, std::size_t count, float where_none) {
   const hn::ScalableTag<float> d;
-  const auto k = hn::Set(d, factor);
-  const auto none = hn::Set(d, where_none);
+  const auto shift = hn::Set(d, scale.shift), factor = hn::Set(d, scale.factor), none = hn::Set(d, where_none);
+  const auto lowest = hn::Set(d, scale.lowest_ev), highest = hn::Set(d, scale.highest_ev);
   std::size_t without = 0;
   for_each_vector<1, 1>(d, ev100, luminance, count, 0.0f, [&](const float* from, float* to) {
     const auto ev = hn::LoadU(d, from);
     const auto invalid = hn::IsNaN(ev);
-    const auto product = hn::Mul(exp2_of(d, ev), k);
-    const auto held = hn::Min(hn::Max(product, hn::Set(d, least)), hn::Set(d, largest));
-    hn::StoreU(hn::IfThenElse(invalid, none, held), d, to);
+    const auto held = hn::Min(hn::Max(ev, lowest), highest);
+    const auto whole = hn::Round(held);
+    const auto power = exp2_of(d, hn::Add(whole, shift), hn::Sub(held, whole), factor);
+    hn::StoreU(hn::IfThenElse(invalid, none, power), d, to);
     without += hn::CountTrue(d, invalid);
   });
   return without;
@@ -92,8 +105,11 @@ Status scaled(std::span<const float> in, double factor, std::span<float> out) {
 BatchOutcome luminance_of_ev100(std::span<const float> ev100, const Calibration& calibration, std::span<float> luminance_cd_m2,
                                 float where_none) {
   if (ev100.size() != luminance_cd_m2.size()) return batch_sizes_differ(ev100.size(), luminance_cd_m2.size());
-  return HWY_DYNAMIC_DISPATCH(LuminanceOfEv100)(ev100.data(), static_cast<float>(calibration.meter_k / 100), luminance_cd_m2.data(),
-                                                ev100.size(), where_none);
+  const double log = std::log2(calibration.meter_k / 100), shift = std::round(log);
+  constexpr double margin = 1e-4;  // more than rounding
+  const EvScale scale{static_cast<float>(shift), static_cast<float>(std::exp2(log - shift)), static_cast<float>(-126 - log + margin),
+                      static_cast<float>(128 - log - margin)};
+  return HWY_DYNAMIC_DISPATCH(LuminanceOfEv100)(ev100.data(), scale, luminance_cd_m2.data(), ev100.size(), where_none);
 }
 
 BatchOutcome ev100_of_luminance(std::span<const float> luminance_cd_m2, const Calibration& calibration, std::span<float> ev100,

@@ -4,6 +4,7 @@
 int main(int argc, char** argv) {
   etendue::bench::Bench bench;
   etendue::bench::exposure_rows(bench);
+  etendue::bench::colour_rows(bench);
   etendue::bench::pixel_rows(bench);
   return bench.run(argc, argv);
 }

@@ -12,6 +12,7 @@ namespace etendue::bench {
 inline constexpr std::size_t batch_size = 4096;  // 16 KiB of floats
 
 void exposure_rows(Bench& bench);
+void colour_rows(Bench& bench);
 void pixel_rows(Bench& bench);
 
 // Every task's first row: out = in x factor, which no conversion can be faster than, compiled for this machine (native.cpp).
