@@ -51,7 +51,7 @@ def fit(numerators, denominator, targets, scale, steps):
 
 
 def planckian(degree, least_K, steps):
-    """x = X/S and y = Y/S as polynomials of s = least_K/T, s from 0 to 1."""
+    """X = X/S and y = Y/S as polynomials of s = least_K/T, s from 0 to 1."""
     t = np.cos(np.pi * (np.arange(2000) + 0.5) / 2000)
     xyz, _ = locus((t + 1) / 2 / least_K)
     x, y = xyz[:, 0] / xyz.sum(1), xyz[:, 1] / xyz.sum(1)
@@ -123,6 +123,12 @@ def main():
     error, (n, d) = fit([powers(a, b, 3)], powers(a, b, 3)[:, 1:], [kelvin / 6500], kelvin / 6500, 200)
     write(f"T from (x - .33, y - .33), 1000 K to 40000 K, |Duv| <= .02; {error:.1e} of T.", "float", "kelvin_numerator", [6500 * c for c in nested(n, 3)])
     write("Its denominator.", "float", "kelvin_denominator", nested(d, 3))
+
+    u, v, _ = beside_locus(1000, 40000, 0.05)
+    a, b = 3 * u / (2 * u - 8 * v + 4) - 0.33, 2 * v / (2 * u - 8 * v + 4) - 0.33
+    duv = np.tile(np.linspace(-0.05, 0.05, 31), len(u) // 31)
+    error, (n, _) = fit([powers(a, b, 2)], np.zeros((len(a), 0)), [duv], np.ones_like(duv), 200)
+    write(f"Duv from the same, only to tell near from far; {error:.3f} up to .05.", "float", "duv_quadratic", nested(n, 2))
 
 
 main()

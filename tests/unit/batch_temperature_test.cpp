@@ -93,5 +93,26 @@ TEST(BatchTemperature, FitIsAThirdOfAPercent) {
   });
 }
 
+// All over the diagram and beside it: what the fit accepts has a colour temperature by the double function, to a quarter.
+TEST(BatchTemperature, FitRefusesWhatIsFarAway) {
+  const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
+  std::vector<Vec2f> xy = {{nan, 0.3F},      {0.3F, nan},           {0, 0},        {0.332F, 0.1858F}, {0.8F, 0.1F},
+                           {infinity, 0.3F}, {-infinity, infinity}, {1e30F, 1e30F}};
+  for (int i = -60; i <= 260; ++i)
+    for (int j = -60; j <= 260; ++j) xy.push_back({static_cast<float>(i) / 200, static_cast<float>(j) / 200});
+  std::vector<float> kelvin(xy.size());
+  on_each_instruction_set([&] {
+    const BatchOutcome done = fit_colour_temperature(xy, kelvin, -1);
+    ASSERT_TRUE(done.ok());
+    EXPECT_EQ(*done, static_cast<std::size_t>(std::count(kelvin.begin(), kelvin.end(), -1.0F)));
+    for (std::size_t i = 0; i < xy.size(); ++i) {
+      if (kelvin[i] == -1) continue;
+      const Result<ColourTemperature> exact = to_colour_temperature(Chromaticity{xy[i].x, xy[i].y});
+      ASSERT_TRUE(exact.ok()) << xy[i].x << " " << xy[i].y;
+      EXPECT_LE(std::abs(kelvin[i] / exact->kelvin - 1), 0.05) << xy[i].x << " " << xy[i].y;
+    }
+  });
+}
+
 }  // namespace
 }  // namespace etendue
