@@ -121,7 +121,12 @@ def main():
     x, y = 3 * u / (2 * u - 8 * v + 4), 2 * v / (2 * u - 8 * v + 4)
     a, b = x - 0.33, y - 0.33
     error, (n, d) = fit([powers(a, b, 3)], powers(a, b, 3)[:, 1:], [kelvin / 6500], kelvin / 6500, 200)
-    write(f"T from (x - .33, y - .33), 1000 K to 40000 K, |Duv| <= .02; {error:.1e} of T.", "float", "kelvin_numerator", [6500 * c for c in nested(n, 3)])
+    write(
+        f"T from (x - .33, y - .33), 1000 K to 40000 K, |Duv| <= .02; {error:.1e} of T.",
+        "float",
+        "kelvin_numerator",
+        [6500 * c for c in nested(n, 3)],
+    )
     write("Its denominator.", "float", "kelvin_denominator", nested(d, 3))
 
     u, v, _ = beside_locus(1000, 40000, 0.05)

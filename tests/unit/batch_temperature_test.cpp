@@ -109,7 +109,7 @@ TEST(BatchTemperature, FitRefusesWhatIsFarAway) {
       if (kelvin[i] == -1) continue;
       const Result<ColourTemperature> exact = to_colour_temperature(Chromaticity{xy[i].x, xy[i].y});
       ASSERT_TRUE(exact.ok()) << xy[i].x << " " << xy[i].y;
-      EXPECT_LE(std::abs(kelvin[i] / exact->kelvin - 1), 0.05) << xy[i].x << " " << xy[i].y;
+      EXPECT_LE(std::abs(kelvin[i] / exact->kelvin - 1), 0.25) << xy[i].x << " " << xy[i].y;
     }
   });
 }
