@@ -16,19 +16,21 @@ namespace {
 constexpr std::array all_spaces{rec709, rec2020, p3_d65, acescg};
 
 struct Cones {
-  Adaptation adaptation;
+  ChromaticAdaptation adaptation;
   std::string_view name;
   Matrix3 rows;  // the published rows, as columns
 };
 constexpr std::array all_cones{
-    Cones{Adaptation::none, "none", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
-    Cones{Adaptation::xyz_scaling, "xyz_scaling", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
-    Cones{Adaptation::von_kries, "von_kries", {{0.40024, 0.70760, -0.08081}, {-0.22630, 1.16532, 0.04570}, {0, 0, 0.91822}}},
-    Cones{Adaptation::bradford, "bradford", {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}},
-    Cones{Adaptation::cat02, "cat02", {{0.7328, 0.4296, -0.1624}, {-0.7036, 1.6975, 0.0061}, {0.0030, 0.0136, 0.9834}}},
-    Cones{Adaptation::cat16, "cat16", {{0.401288, 0.650173, -0.051461}, {-0.250268, 1.204414, 0.045854}, {-0.002079, 0.048952, 0.953127}}},
+    Cones{ChromaticAdaptation::none, "none", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+    Cones{ChromaticAdaptation::xyz_scaling, "xyz_scaling", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+    Cones{ChromaticAdaptation::von_kries, "von_kries", {{0.40024, 0.70760, -0.08081}, {-0.22630, 1.16532, 0.04570}, {0, 0, 0.91822}}},
+    Cones{ChromaticAdaptation::bradford, "bradford", {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}},
+    Cones{ChromaticAdaptation::cat02, "cat02", {{0.7328, 0.4296, -0.1624}, {-0.7036, 1.6975, 0.0061}, {0.0030, 0.0136, 0.9834}}},
+    Cones{ChromaticAdaptation::cat16,
+          "cat16",
+          {{0.401288, 0.650173, -0.051461}, {-0.250268, 1.204414, 0.045854}, {-0.002079, 0.048952, 0.953127}}},
 };
-const Cones& cones_of(Adaptation adaptation) { return all_cones[static_cast<std::size_t>(adaptation)]; }
+const Cones& cones_of(ChromaticAdaptation adaptation) { return all_cones[static_cast<std::size_t>(adaptation)]; }
 
 // The one whose name it is, or an error that says what is nearest.
 template <class All>
@@ -52,16 +54,16 @@ bool has_luminance(const Chromaticity& xy) { return std::isfinite(xy.x) && std::
 std::span<const ColourSpace> colour_spaces() { return all_spaces; }
 Result<ColourSpace> colour_space(std::string_view name) { return named(all_spaces, name, "COLOUR_SPACE_UNKNOWN", "colour space"); }
 
-std::string_view name_of(Adaptation adaptation) { return cones_of(adaptation).name; }
-Result<Adaptation> adaptation_of(std::string_view name) {
+std::string_view name_of(ChromaticAdaptation adaptation) { return cones_of(adaptation).name; }
+Result<ChromaticAdaptation> adaptation_of(std::string_view name) {
   const Result<Cones> found = named(all_cones, name, "ADAPTATION_UNKNOWN", "chromatic adaptation");
   if (!found) return found.error();
   return found->adaptation;
 }
 
 // cones^-1 diag(response to `to` / response to `from`) cones.
-Result<Matrix3> adaptation_matrix(const Chromaticity& from, const Chromaticity& to, Adaptation adaptation) {
-  if (adaptation == Adaptation::none) return cones_of(adaptation).rows;
+Result<Matrix3> adaptation_matrix(const Chromaticity& from, const Chromaticity& to, ChromaticAdaptation adaptation) {
+  if (adaptation == ChromaticAdaptation::none) return cones_of(adaptation).rows;
   const Matrix3 cones = transposed(cones_of(adaptation).rows);
   for (const Chromaticity& white : {from, to}) {
     const Vec3d response = has_luminance(white) ? cones * to_xyz(white) : Vec3d{};
@@ -77,7 +79,7 @@ Result<Matrix3> adaptation_matrix(const Chromaticity& from, const Chromaticity& 
   return inverse(cones) * scale * cones;
 }
 
-Result<Matrix3> conversion(const ColourSpace& from, const ColourSpace& to, Adaptation adaptation) {
+Result<Matrix3> conversion(const ColourSpace& from, const ColourSpace& to, ChromaticAdaptation adaptation) {
   const Result<Matrix3> adapted = adaptation_matrix(from.white, to.white, adaptation);
   if (!adapted) return adapted.error();
   return xyz_to_rgb(to) * *adapted * rgb_to_xyz(from);

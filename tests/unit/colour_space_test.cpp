@@ -24,11 +24,11 @@ void expect_rows(const Matrix3& m, const Vec3d& r, const Vec3d& g, const Vec3d& 
 // Matrices as others print them: ITU-R BT.2087 (4 digits), ACES' S-2014-004 (10 digits), and AP1 by Bradford as the ACES configurations
 // have it (6 digits).
 TEST(ColourSpace, MatchesPublishedMatrices) {
-  expect_rows(*conversion(rec2020, rec709, Adaptation::none), {1.6605, -0.5876, -0.0728}, {-0.1246, 1.1329, -0.0083},
+  expect_rows(*conversion(rec2020, rec709, ChromaticAdaptation::none), {1.6605, -0.5876, -0.0728}, {-0.1246, 1.1329, -0.0083},
               {-0.0182, -0.1006, 1.1187}, 5.1e-5);
   expect_rows(rgb_to_xyz(acescg), {0.6624541811, 0.1340042065, 0.1561876870}, {0.2722287168, 0.6740817658, 0.0536895174},
               {-0.0055746495, 0.0040607335, 1.0103391003}, 5.1e-11);
-  expect_rows(*conversion(rec709, acescg, Adaptation::bradford), {0.613097, 0.339523, 0.047379}, {0.070194, 0.916354, 0.013452},
+  expect_rows(*conversion(rec709, acescg, ChromaticAdaptation::bradford), {0.613097, 0.339523, 0.047379}, {0.070194, 0.916354, 0.013452},
               {0.020616, 0.109570, 0.869815}, 1.5e-6);
   // IEC 61966-2-1 has the luminances of sRGB's primaries to 4 digits.
   expect_near(transposed(rgb_to_xyz(rec709)).b, {0.2126, 0.7152, 0.0722}, 5.1e-5);
@@ -39,11 +39,11 @@ TEST(ColourSpace, WhiteIsWhiteAndBackIsBack) {
     EXPECT_EQ(colour_space(from.name)->name, from.name);
     expect_near(to_space(from.white, from, {})->rgb, {1, 1, 1}, 1e-14);
     for (const ColourSpace& to : colour_spaces())
-      for (const Adaptation by :
-           {Adaptation::none, Adaptation::xyz_scaling, Adaptation::von_kries, Adaptation::bradford, Adaptation::cat02, Adaptation::cat16}) {
+      for (const ChromaticAdaptation by : {ChromaticAdaptation::none, ChromaticAdaptation::xyz_scaling, ChromaticAdaptation::von_kries,
+                                           ChromaticAdaptation::bradford, ChromaticAdaptation::cat02, ChromaticAdaptation::cat16}) {
         const Matrix3 there = *conversion(from, to, by), back = *conversion(to, from, by);
         expect_near(back * (there * Vec3d{0.3, -0.1, 0.9}), {0.3, -0.1, 0.9}, 1e-13);
-        if (by != Adaptation::none) expect_near(there * Vec3d{1, 1, 1}, {1, 1, 1}, 1e-14);
+        if (by != ChromaticAdaptation::none) expect_near(there * Vec3d{1, 1, 1}, {1, 1, 1}, 1e-14);
         EXPECT_EQ(*adaptation_of(name_of(by)), by);
       }
   }
@@ -51,7 +51,7 @@ TEST(ColourSpace, WhiteIsWhiteAndBackIsBack) {
 
 // ACES' white, not adapted, in linear sRGB (computed independently); it is no D60.
 TEST(ColourSpace, UnadaptedWhiteKeepsItsTint) {
-  expect_near(*conversion(acescg, rec709, Adaptation::none) * Vec3d{1, 1, 1}, {1.0471, 0.9945, 0.9153}, 5.1e-5);
+  expect_near(*conversion(acescg, rec709, ChromaticAdaptation::none) * Vec3d{1, 1, 1}, {1.0471, 0.9945, 0.9153}, 5.1e-5);
 }
 
 // D65 as CIE prints it, as the daylight locus gives it, and for an eye that is adapted to whatever light there is.
@@ -60,7 +60,8 @@ TEST(ColourSpace, WhitePolicies) {
   expect_near(to_space(*daylight(6503.6), rec709, {})->rgb, {1, 1, 1}, 1e-3);
   const Chromaticity lamp = *planckian(2700);
   EXPECT_GT(to_space(lamp, rec709, {})->rgb.x, 1.5);
-  for (const Adaptation by : {Adaptation::von_kries, Adaptation::bradford, Adaptation::cat02, Adaptation::cat16})
+  for (const ChromaticAdaptation by :
+       {ChromaticAdaptation::von_kries, ChromaticAdaptation::bradford, ChromaticAdaptation::cat02, ChromaticAdaptation::cat16})
     for (const ColourSpace& space : colour_spaces()) expect_near(to_space(lamp, space, {by, lamp})->rgb, {1, 1, 1}, 1e-13);
   // Without a policy it is what to_rgb gives, but for the luminance's weights, which that rounds to 4 digits.
   const Rgb same = to_rgb(lamp);
@@ -86,10 +87,10 @@ TEST(ColourSpace, BadInput) {
   EXPECT_EQ(adaptation_of("bradfort").error().code, "ADAPTATION_UNKNOWN");
   for (const Chromaticity& bad : {Chromaticity{0.3, 0}, {0, 0}, {0.3, -0.1}, {std::nan(""), 0.3}, {0.3, HUGE_VAL}}) {
     EXPECT_EQ(to_space(bad, rec709, {}).error().code, "CHROMATICITY_INVALID");
-    EXPECT_EQ(to_space({0.3, 0.3}, rec709, {Adaptation::cat02, bad}).error().code, "WHITE_POINT_INVALID");
+    EXPECT_EQ(to_space({0.3, 0.3}, rec709, {ChromaticAdaptation::cat02, bad}).error().code, "WHITE_POINT_INVALID");
   }
   // A white so purple that a response is negative.
-  EXPECT_EQ(adaptation_matrix({0.7, 0.2}, {0.3, 0.3}, Adaptation::bradford).error().code, "WHITE_POINT_INVALID");
+  EXPECT_EQ(adaptation_matrix({0.7, 0.2}, {0.3, 0.3}, ChromaticAdaptation::bradford).error().code, "WHITE_POINT_INVALID");
 }
 
 // Errata E19 of Frostbite 3.0: listing 30 offers powers of 2.2 instead; they are off by .0085 and .0335 and give NaN below 0.

@@ -1,7 +1,8 @@
 // RGB colour spaces by their primaries, the matrices between them, and what becomes of the white point, which is always said:
-//   Matrix3 to_acescg = *conversion(rec709, acescg, Adaptation::bradford);
+//   Matrix3 to_acescg = *conversion(rec709, acescg, ChromaticAdaptation::bradford);
 //   InSpace warm = *to_space(*planckian(2700), rec2020, {});     // as it is: a 2700 K lamp stays orange
-//   InSpace white = *to_space(*planckian(2700), rec709, {Adaptation::cat02, *planckian(2700)});   // for an eye adapted to it: (1, 1, 1)
+//   InSpace white = *to_space(*planckian(2700), rec709, {ChromaticAdaptation::cat02, *planckian(2700)});   // for an eye adapted to it: (1,
+//   1, 1)
 #pragma once
 
 #include "etendue/colour.h"
@@ -55,7 +56,7 @@ constexpr Matrix3 rgb_to_xyz(const ColourSpace& space) {
 constexpr Matrix3 xyz_to_rgb(const ColourSpace& space) { return inverse(rgb_to_xyz(space)); }
 
 // How an observer's adaptation to a white is accounted for: by scaling cone responses (or X, Y, Z) from one white's to the other's.
-enum class Adaptation {
+enum class ChromaticAdaptation {
   none,         // colours stay what they are; what was white before is tinted afterwards
   xyz_scaling,  // X, Y, Z themselves: "wrong von Kries", here because ICC's old profiles have it
   von_kries,    // Hunt-Pointer-Estevez cones, normalised to D65
@@ -63,15 +64,15 @@ enum class Adaptation {
   cat02,        // CIECAM02
   cat16,        // CAM16
 };
-std::string_view name_of(Adaptation adaptation);
+std::string_view name_of(ChromaticAdaptation adaptation);
 // ADAPTATION_UNKNOWN, with the nearest names.
-Result<Adaptation> adaptation_of(std::string_view name);
+Result<ChromaticAdaptation> adaptation_of(std::string_view name);
 
 // XYZ seen under `from` to XYZ that looks the same under `to`. WHITE_POINT_INVALID for a white without luminance, or one that a cone does
 // not respond to.
-Result<Matrix3> adaptation_matrix(const Chromaticity& from, const Chromaticity& to, Adaptation adaptation);
+Result<Matrix3> adaptation_matrix(const Chromaticity& from, const Chromaticity& to, ChromaticAdaptation adaptation);
 // Linear RGB of one space to that of another.
-Result<Matrix3> conversion(const ColourSpace& from, const ColourSpace& to, Adaptation adaptation);
+Result<Matrix3> conversion(const ColourSpace& from, const ColourSpace& to, ChromaticAdaptation adaptation);
 
 // A colour in a space. Out of gamut: a channel is negative, and stays so; nothing is clipped.
 struct InSpace {
@@ -82,7 +83,7 @@ InSpace in_space(const Rgb& rgb);
 
 // To which white the observer is adapted before the space's own takes its place.
 struct WhitePolicy {
-  Adaptation adaptation = Adaptation::none;
+  ChromaticAdaptation adaptation = ChromaticAdaptation::none;
   Chromaticity observer_white{};  // not looked at for `none`
 };
 // A chromaticity with Y = 1. Errors: CHROMATICITY_INVALID unless it is finite and y > 0; WHITE_POINT_INVALID.
