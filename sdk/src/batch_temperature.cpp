@@ -147,9 +147,9 @@ std::size_t FitColourTemperature(const float* xy, float* kelvin, std::size_t cou
     hn::LoadInterleaved2(d, from, x, y);
     const auto a = hn::Sub(x, set(0.33f)), b = hn::Sub(y, set(0.33f));
     const auto t = hn::Div(bivariate<3>(d, kelvin_numerator, a, b), bivariate<3>(d, kelvin_denominator, a, b));
-    // The quadratic is within .034 for |Duv| <= .02, and nothing that it gives less than .035, with x + y <= 1.1, is further
+    // The quadratic is within .034 for |Duv| <= .02, and nothing that it gives less than .035, with x + y <= 1.25, is further
     // away than .05.
-    const auto real = hn::And(hn::Gt(y, set(0)), hn::Le(hn::Add(x, y), set(1.1f)));
+    const auto real = hn::And(hn::Gt(y, set(0)), hn::Le(hn::Add(x, y), set(1.25f)));
     const auto near = hn::And(real, hn::Le(hn::Abs(bivariate<2>(d, duv_quadratic, a, b)), set(0.035f)));
     const auto valid = hn::And(near, hn::And(hn::Ge(t, set(990.0f)), hn::Le(t, set(40400.0f))));
     hn::StoreU(hn::IfThenElse(valid, t, set(where_none)), d, to);
