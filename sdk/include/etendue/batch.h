@@ -40,8 +40,8 @@ BatchOutcome planckian_rgb(std::span<const float> temperature_K, std::span<Vec3f
 // relative 3e-8 for 500 K to 100000 K and |Duv| <= .05; Duv within 1e-11.
 BatchOutcome to_colour_temperature(std::span<const Chromaticity> xy, std::span<ColourTemperature> temperature,
                                    ColourTemperature where_none);
-// Correlated colour temperature alone, quickly and roughly: within .32 % for 1000 K to 40000 K and |Duv| <= .02. Further out it gets worse, up
-// to a quarter, until it is refused, somewhere between |Duv| = .02 and .05.
+// Correlated colour temperature alone, quickly and roughly: within .32 % for 1000 K to 40000 K and |Duv| <= .02. Further out it gets worse,
+// up to a quarter, until it is refused, somewhere between |Duv| = .02 and .05.
 BatchOutcome fit_colour_temperature(std::span<const Vec2f> xy, std::span<float> temperature_K, float where_none);
 
 // IEC 61966-2-1, the transfer functions of srgb.h: a relative 7e-7 for what is no larger than 65504, absolutely 2.5e-7 up to 1.
