@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   add_render(app, common, run);
   add_compare(app, common, run);
   add_validate(app, common, run);
+  add_ies(app, common, run);
   for (CLI::App* const verb : app.get_subcommands({})) add_common(*verb, common);
   add_completion(app, run);
 

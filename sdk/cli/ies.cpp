@@ -1,0 +1,199 @@
+// etendue ies: photometric files reported, checked and converted.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+#include "photometric_file.h"
+#include "verbs.h"
+
+namespace etendue::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> files, at, cone;
+  std::string interpolation = "linear", orientation, units = "metric";
+  std::size_t lamp_set = 1;
+  unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+  bool csv = false, check = false, strict = false;
+};
+
+struct Direction {
+  double c_deg = 0, gamma_deg = 0;
+};
+
+// Files as they are; of folders everything that is named .ies or .ldt, by name.
+Result<std::vector<std::string>> files_of(const std::vector<std::string>& given) {
+  std::vector<std::string> files;
+  for (const std::string& one : given) {
+    std::error_code code;
+    if (!fs::is_directory(one, code)) {
+      files.push_back(one);
+      continue;
+    }
+    std::vector<std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(one, fs::directory_options::skip_permission_denied, code)) {
+      std::string extension = entry.path().extension().string();
+      std::transform(extension.begin(), extension.end(), extension.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      if ((extension == ".ies" || extension == ".ldt") && entry.is_regular_file(code)) found.push_back(entry.path().string());
+    }
+    std::sort(found.begin(), found.end());
+    if (found.empty()) return Error{"FILE_UNREADABLE", fmt::format("\"{}\" holds no .ies or .ldt file", one), {one, 0, 0, {}}, "", {}};
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
+Result<Direction> direction_from(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  Direction direction;
+  const char* const begin = text.data();
+  const char* const end = begin + text.size();
+  bool good = comma != std::string::npos;
+  if (good) {
+    const auto [c_end, c_error] = std::from_chars(begin, begin + comma, direction.c_deg);
+    const auto [gamma_end, gamma_error] = std::from_chars(begin + comma + 1, end, direction.gamma_deg);
+    good = c_error == std::errc() && c_end == begin + comma && gamma_error == std::errc() && gamma_end == end;
+  }
+  if (!good || !(direction.gamma_deg >= 0 && direction.gamma_deg <= 180) || !(std::abs(direction.c_deg) <= 1e6))
+    return Error{
+        "USAGE", fmt::format("--at: expected C,gamma in degrees, gamma from 0 to 180, found '{}'", text), {}, "as in --at 90,30", {}};
+  return direction;
+}
+
+std::vector<PhotometricReading> read_all(const std::vector<std::string>& files, const PhotometricChoice& choice, unsigned jobs, Bar& bar) {
+  std::vector<PhotometricReading> readings(files.size());
+  std::atomic<std::size_t> next = 0, done = 0;
+  std::mutex reporting;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < files.size() && !interrupted(); i = next++) {
+      readings[i] = read_photometric(files[i], choice);
+      const std::scoped_lock lock(reporting);
+      bar.report("read", static_cast<double>(++done) / static_cast<double>(files.size()));
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned i = 1; i < std::min<std::size_t>(jobs, files.size()); ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  return readings;
+}
+
+void say_cones(const Session& session, Json& json, const IntensityWeb& web, const std::vector<double>& distances, Units units) {
+  if (distances.empty()) return;
+  json["cone"] = Json::array();
+  const bool imperial = units == Units::imperial;
+  const double unit_m = imperial ? 0.3048 : 1;
+  for (const double distance : distances) {
+    const ConeRow row = cone_at(web, distance);
+    Json entry = {{"distance_m", row.distance_m}, {"centre_lx", row.centre_lx}};
+    if (row.known) entry["beam_diameter_m"] = {{"c0_180", row.diameter_c0_m}, {"c90_270", row.diameter_c90_m}};
+    json["cone"].push_back(entry);
+    const std::string diameters =
+        row.known ? fmt::format("beam {:.4g} x {:.4g} {}", row.diameter_c0_m / unit_m, row.diameter_c90_m / unit_m, imperial ? "ft" : "m")
+                  : "no beam below 180 deg";
+    session.print(fmt::format("  {:>8.4g} {}  {}, centre {:.5g} {}", distance / unit_m, imperial ? "ft" : "m", diameters,
+                              row.centre_lx * (imperial ? 0.3048 * 0.3048 : 1), imperial ? "fc" : "lx"));
+  }
+}
+
+void say_directions(const Session& session, Json& json, const IntensityWeb& web, const std::vector<Direction>& directions) {
+  if (directions.empty()) return;
+  json["at"] = Json::array();
+  for (const Direction& d : directions) {
+    const double cd = web.at(d.c_deg, d.gamma_deg);
+    json["at"].push_back({{"c_deg", d.c_deg}, {"gamma_deg", d.gamma_deg}, {"intensity_cd", cd}});
+    session.print(fmt::format("  C {:g}, gamma {:g} deg: {} cd", d.c_deg, d.gamma_deg, cd));
+  }
+}
+
+int run_ies(const Common& common, const Options& options) {
+  Session session("ies", common);
+  session.result = Json::array();
+  PhotometricChoice choice;
+  choice.strict = options.strict;
+  choice.lamp_set = options.lamp_set - 1;
+  choice.interpolation = options.interpolation == "cos"     ? Interpolation::cosine
+                         : options.interpolation == "cubic" ? Interpolation::cubic
+                                                            : Interpolation::linear;
+  if (!options.orientation.empty()) choice.orientation = options.orientation == "cie" ? Orientation::cie : Orientation::ies;
+  const Units units = options.units == "imperial" ? Units::imperial : Units::metric;
+  std::vector<Direction> directions;
+  for (const std::string& text : options.at) {
+    const Result<Direction> direction = direction_from(text);
+    if (!direction) return session.fail(direction.error());
+    directions.push_back(*direction);
+  }
+  std::vector<double> distances;
+  for (const std::string& text : options.cone) {
+    const Result<double> distance = parse_si(text, Dimension::length);
+    if (!distance) return session.fail({"USAGE", "--cone: " + distance.error().text, {}, "as in --cone 1m,2m,5m", {}});
+    if (!(*distance > 0)) return session.fail({"USAGE", "--cone: expected distances above 0", {}, "as in --cone 1m,2m,5m", {}});
+    distances.push_back(*distance);
+  }
+  const Result<std::vector<std::string>> files = files_of(options.files);
+  if (!files) return session.fail(files.error());
+  std::vector<PhotometricReading> readings;
+  {
+    Bar bar(session);
+    readings = read_all(*files, choice, options.jobs, bar);
+  }
+  if (interrupted()) return session.fail({"CANCELLED", "cancelled", {}, "", {}});
+
+  if (options.csv) session.print(csv_header());
+  bool bad = false, warned = false;
+  for (const PhotometricReading& reading : readings) {
+    Json json = to_json(reading);
+    if (options.csv) session.print(csv_row(reading));
+    if (reading.error) {
+      bad = true;
+      session.diagnostics.add(to_diagnostic(*reading.error));
+      session.result.push_back(std::move(json));
+      continue;
+    }
+    for (const Diagnostic& d : reading.diagnostics.all()) warned = warned || d.severity == Severity::warning;
+    session.diagnostics.append(reading.diagnostics);
+    if (!options.csv && !options.check) session.print(report_of(reading, units));
+    say_directions(session, json, reading.web, directions);
+    say_cones(session, json, reading.web, distances, units);
+    session.result.push_back(std::move(json));
+  }
+  session.stats["files"] = readings.size();
+  return session.finish(bad || (options.check && warned) ? exit_bad_input : exit_done);
+}
+
+}  // namespace
+
+void add_ies(CLI::App& app, const Common& common, Run& run) {
+  CLI::App* const verb = app.add_subcommand("ies", "Photometric files: report, check");
+  auto options = std::make_shared<Options>();
+  verb->add_option("FILE", options->files, "IES LM-63 (.ies) and EULUMDAT (.ldt) files, or folders of them")->required();
+  verb->add_flag("--csv", options->csv, "One row a file");
+  verb->add_flag("--check", options->check, "Only what is wrong; warnings give exit status 1 too");
+  verb->add_flag("--strict", options->strict, "Refuse what a tolerant reading repairs");
+  verb->add_option("--at", options->at, "Intensity towards C,gamma in degrees; repeatable");
+  verb->add_option("--cone", options->cone, "Beam diameter and illuminance at these distances: 1m,2m,5m")->delimiter(',');
+  verb->add_option("--units", options->units, "metric or imperial")->capture_default_str()->check(CLI::IsMember({"metric", "imperial"}));
+  verb->add_option("--orientation", options->orientation, "Where C0 lies: ies (along the length) or cie (across it); else as in the file")
+      ->check(CLI::IsMember({"ies", "cie"}));
+  verb->add_option("--interpolation", options->interpolation, "linear in the angle, cos (in its cosine), or cubic")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"linear", "cos", "cubic"}));
+  verb->add_option("--lamp-set", options->lamp_set, "Which of EULUMDAT's alternatives, from 1")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 64));
+  verb->add_option("--jobs", options->jobs, "Files at a time")->check(CLI::Range(1, 256));
+  verb->footer(
+      "\nExamples:\n  etendue ies lamp.ies\n  etendue ies library/ --csv > library.csv\n  etendue ies lamp.ldt --at 90,30 --cone 1m,2m,5m\n"
+      "  etendue ies library/ --check");
+  verb->callback([&common, &run, options] { run = [&common, options] { return run_ies(common, *options); }; });
+}
+
+}  // namespace etendue::cli
