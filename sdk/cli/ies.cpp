@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "photometric_file.h"
+#include "photometric_convert.h"
 #include "verbs.h"
 
 namespace etendue::cli {
@@ -22,6 +22,9 @@ struct Options {
   std::size_t lamp_set = 1;
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   bool csv = false, check = false, strict = false;
+  std::string convert;
+  double fold = -1;
+  ConvertChoice conversion;
 };
 
 struct Direction {
@@ -114,6 +117,27 @@ void say_directions(const Session& session, Json& json, const IntensityWeb& web,
   }
 }
 
+// The losses as lines and in the result. The exit status.
+int say_conversion(Session& session, Json& json, const PhotometricReading& reading, const Options& options) {
+  ConvertChoice choice = options.conversion;
+  choice.out = options.convert;
+  if (options.fold >= 0) choice.fold = options.fold;
+  const Result<ConvertedPhotometry> converted = convert_photometric(reading, choice);
+  if (!converted) {
+    session.diagnostics.add(to_diagnostic(converted.error()));
+    return exit_status_of(converted.error());
+  }
+  const std::vector<Loss>& losses = converted->losses.losses;
+  session.print(fmt::format("{}: {} loss{}", options.convert, losses.size(), losses.size() == 1 ? "" : "es"));
+  Json list = Json::array();
+  for (const Loss& loss : losses) {
+    session.print(fmt::format("  lost: {}: {}", loss.what, loss.effect));
+    list.push_back({{"what", loss.what}, {"effect", loss.effect}});
+  }
+  json["converted"] = {{"out", options.convert}, {"losses", list}};
+  return exit_done;
+}
+
 int run_ies(const Common& common, const Options& options) {
   Session session("ies", common);
   session.result = Json::array();
@@ -140,6 +164,8 @@ int run_ies(const Common& common, const Options& options) {
   }
   const Result<std::vector<std::string>> files = files_of(options.files);
   if (!files) return session.fail(files.error());
+  if (!options.convert.empty() && files->size() != 1)
+    return session.fail({"USAGE", fmt::format("--convert takes one file, found {}", files->size()), {}, "", {}});
   std::vector<PhotometricReading> readings;
   {
     Bar bar(session);
@@ -149,6 +175,7 @@ int run_ies(const Common& common, const Options& options) {
 
   if (options.csv) session.print(csv_header());
   bool bad = false, warned = false;
+  int status = exit_done;
   for (const PhotometricReading& reading : readings) {
     Json json = to_json(reading);
     if (options.csv) session.print(csv_row(reading));
@@ -160,19 +187,20 @@ int run_ies(const Common& common, const Options& options) {
     }
     for (const Diagnostic& d : reading.diagnostics.all()) warned = warned || d.severity == Severity::warning;
     session.diagnostics.append(reading.diagnostics);
-    if (!options.csv && !options.check) session.print(report_of(reading, units));
+    if (!options.csv && !options.check && options.convert.empty()) session.print(report_of(reading, units));
     say_directions(session, json, reading.web, directions);
     say_cones(session, json, reading.web, distances, units);
+    if (!options.convert.empty()) status = say_conversion(session, json, reading, options);
     session.result.push_back(std::move(json));
   }
   session.stats["files"] = readings.size();
-  return session.finish(bad || (options.check && warned) ? exit_bad_input : exit_done);
+  return session.finish(bad || (options.check && warned) ? exit_bad_input : status);
 }
 
 }  // namespace
 
 void add_ies(CLI::App& app, const Common& common, Run& run) {
-  CLI::App* const verb = app.add_subcommand("ies", "Photometric files: report, check");
+  CLI::App* const verb = app.add_subcommand("ies", "Photometric files: report, check, convert");
   auto options = std::make_shared<Options>();
   verb->add_option("FILE", options->files, "IES LM-63 (.ies) and EULUMDAT (.ldt) files, or folders of them")->required();
   verb->add_flag("--csv", options->csv, "One row a file");
@@ -189,10 +217,19 @@ void add_ies(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--lamp-set", options->lamp_set, "Which of EULUMDAT's alternatives, from 1")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
+  verb->add_option("--convert", options->convert, "Write this .ies or .ldt, with a report of what is lost");
+  verb->add_option("--year", options->conversion.year, "Version of the .ies that is written")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"1986", "1991", "1995", "2002", "2019"}));
+  verb->add_option("--flux", options->conversion.flux, "Scale what is written to emit this: \"1500 lm\"");
+  verb->add_option("--fold", options->fold, "Fold mirrored planes that differ by at most this share of the peak: 0 is exact")
+      ->check(CLI::Range(0.0, 1.0));
+  verb->add_flag("--same-planes", options->conversion.same_planes, "Across formats, keep the numbers of the C planes");
+  verb->add_flag("--force", options->conversion.force, "Replace what is there");
   verb->add_option("--jobs", options->jobs, "Files at a time")->check(CLI::Range(1, 256));
   verb->footer(
       "\nExamples:\n  etendue ies lamp.ies\n  etendue ies library/ --csv > library.csv\n  etendue ies lamp.ldt --at 90,30 --cone 1m,2m,5m\n"
-      "  etendue ies library/ --check");
+      "  etendue ies library/ --check\n  etendue ies lamp.ies --convert lamp.ldt --fold 0.001");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_ies(common, *options); }; });
 }
 

@@ -95,7 +95,7 @@ double IntensityWeb::flux_between(double from_gamma_deg, double to_gamma_deg) co
   const double from = std::clamp(from_gamma_deg, 0.0, 180.0), to = std::clamp(to_gamma_deg, from, 180.0);
   if (from == to) return 0;
   if (type_ != WebType::c && !(from == 0 && to == 180))
-    return (to == 180 ? flux_lm_ : flux_inside_cone(*this, to)) - (from == 0 ? 0 : flux_inside_cone(*this, from));
+    return std::max(0.0, (to == 180 ? flux_lm_ : flux_inside_cone(*this, to)) - (from == 0 ? 0 : flux_inside_cone(*this, from)));
   if (symmetry_ == WebSymmetry::rotational) return 2 * pi * plane_integral(0, from, to);
   std::vector<double> planes(azimuth_.nodes().size());
   for (std::size_t j = 0; j < planes.size(); ++j) planes[j] = plane_integral(j, from, to);
