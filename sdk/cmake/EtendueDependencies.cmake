@@ -70,6 +70,19 @@ foreach(path IN LISTS oiio_includes)
 endforeach()
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${oiio_existing}")
 
+# pkg-config first: Debian's CMake files of OpenColorIO compute a wrong prefix.
+if(PkgConfig_FOUND)
+  pkg_check_modules(OpenColorIO QUIET IMPORTED_TARGET OpenColorIO)
+endif()
+if(TARGET PkgConfig::OpenColorIO)
+  add_library(OpenColorIO::OpenColorIO ALIAS PkgConfig::OpenColorIO)
+else()
+  find_package(OpenColorIO 2.1 QUIET CONFIG)
+  if(NOT TARGET OpenColorIO::OpenColorIO)
+    etendue_missing("OpenColorIO (>= 2.1)" "libopencolorio-dev")
+  endif()
+endif()
+
 # Embree 4 and 3 differ in their header's folder and in a few calls; both are supported.
 find_package(embree 4 QUIET)
 if(embree_FOUND)

@@ -85,6 +85,12 @@ Result<Matrix3> conversion(const ColourSpace& from, const ColourSpace& to, Chrom
   return xyz_to_rgb(to) * *adapted * rgb_to_xyz(from);
 }
 
+Result<Matrix3> white_balance(const Chromaticity& scene_white, const ColourSpace& space, ChromaticAdaptation adaptation) {
+  const Result<Matrix3> adapted = adaptation_matrix(scene_white, space.white, adaptation);
+  if (!adapted) return adapted.error();
+  return xyz_to_rgb(space) * *adapted * rgb_to_xyz(space);
+}
+
 InSpace in_space(const Rgb& rgb) {
   constexpr double rounding = 1e-9;
   const auto [least, largest] = std::minmax({rgb.x, rgb.y, rgb.z});

@@ -74,6 +74,9 @@ Result<Matrix3> adaptation_matrix(const Chromaticity& from, const Chromaticity& 
 // Linear RGB of one space to that of another.
 Result<Matrix3> conversion(const ColourSpace& from, const ColourSpace& to, ChromaticAdaptation adaptation);
 
+// What linear RGB of a space is multiplied by so that a scene's white becomes the space's. WHITE_POINT_INVALID.
+Result<Matrix3> white_balance(const Chromaticity& scene_white, const ColourSpace& space, ChromaticAdaptation adaptation);
+
 // A colour in a space. Out of gamut: a channel is negative, and stays so; nothing is clipped.
 struct InSpace {
   Rgb rgb;
