@@ -1,6 +1,7 @@
 // The Planckian locus as a curve over reciprocal temperature, with its derivatives.
 #pragma once
 
+#include "etendue/spectrum.h"
 #include "etendue/vec.h"
 
 namespace etendue {
@@ -9,8 +10,6 @@ namespace etendue {
 inline constexpr int first_nm = 360;
 inline constexpr int wavelength_count = 471;
 const Vec3d& colour_matching(int nm);
-
-inline constexpr double c2_m_K = 1.438776877e-2;  // second radiation constant h c / k, SI 2019
 
 // CIE 1960 (u, v) of a Planckian radiator and its first two derivatives with respect to M = 1/T (1/K). M = 0 is the limit of infinite T.
 struct LocusPoint {
