@@ -5,6 +5,7 @@ Needs numpy:  .venv/bin/python sdk/src/colour_fits.py > sdk/src/colour_fits.inc
 Every fit is linear least squares for N - f D over the earlier D (Sanathanan and Koerner 1963), reweighted towards the
 largest errors (Lawson 1961); what comes out is held to its bound by tests, not by this program.
 """
+
 import pathlib
 import re
 

@@ -118,7 +118,7 @@ std::string machine() {
       processor = line.substr(line.find(':') + 2);
       break;
     }
-  const int64_t supported = hwy::SupportedTargets();
+  const int64_t supported = hwy::SupportedTargets() & HWY_TARGETS;
 #if defined(__clang__)
   const char* compiler = "clang " __clang_version__;
 #else
