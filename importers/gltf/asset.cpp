@@ -13,6 +13,7 @@
 #include "container.h"
 #include "mapped_file.h"
 #include "repairs.h"
+#include "structure.h"
 #include "uri.h"
 
 namespace etendue::gltf {
@@ -164,27 +165,19 @@ bool Asset::parse(std::string_view text) {
 }
 
 void Asset::load_model() {
-  const Json& root = *json_;
-  // What tinygltf is to make its model of: the other members are read from the document, or have bytes behind them.
-  std::string text = "{";
-  for (const char* key :
-       {"asset", "accessors", "bufferViews", "cameras", "materials", "meshes", "nodes", "samplers", "scene", "scenes", "textures"}) {
-    const auto member = root.find(key);
-    if (member != root.end()) text += fmt::format("{}\"{}\":{}", text.size() > 1 ? "," : "", key, member->dump());
-  }
-  text += '}';
   tinygltf::TinyGLTF loader;
   loader.SetFsCallbacks(no_files<tinygltf::FsCallbacks>());
   loader.SetImageLoader(ignore_image, nullptr);
   std::string problems, remarks;
   bool loaded = false;
   try {
+    const std::string text = structure_of(*json_);
     loaded =
         loader.LoadASCIIFromString(&model_, &problems, &remarks, text.data(), static_cast<unsigned>(text.size()), "", tinygltf::NO_REQUIRE);
   } catch (const std::exception& e) {
     problems = e.what();
   }
-  if (loaded) return;
+  if (loaded) return remove_stand_ins(*json_, model_);
   while (!problems.empty() && problems.back() == '\n') problems.pop_back();
   model_ = {};
   if (errors_ == 0) error("INVALID_GLTF", "the document cannot be read: " + problems, "");  // else it is said already

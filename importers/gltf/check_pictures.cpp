@@ -44,7 +44,7 @@ class PictureCheck {
     const auto file = file_inside(asset_.folder(), uri);
     if (file) return check_bytes(head_of_file(*file), "/uri");
     // Nobody opens what nothing uses.
-    if (asset_.is_used("/images", index_) || file.error().code == "IO_ERROR")
+    if (asset_.is_used("/images", index_) || file.error().code != "PATH_OUTSIDE_FOLDER")
       return asset_.error(asset_.failure(file.error().code, file.error().text, pointer_ + "/uri"));
     asset_.warning(file.error().code, file.error().text + "; nothing uses it", pointer_ + "/uri");
   }

@@ -81,8 +81,9 @@ std::optional<std::array<T, 16>> declared(const Json& accessor, const char* key,
   for (std::size_t c = 0; c < components; ++c) {
     if (!source[c].is_number()) return std::nullopt;
     const auto x = source[c].get<double>();
-    if (std::abs(x) > static_cast<double>(std::numeric_limits<T>::max()) + 1) return std::nullopt;
-    values[c] = static_cast<T>(x);
+    const bool fits = x >= static_cast<double>(std::numeric_limits<T>::lowest()) && x <= static_cast<double>(std::numeric_limits<T>::max());
+    if (!fits && std::is_integral_v<T>) return std::nullopt;  // reported as INVALID_GL_VALUE
+    values[c] = fits ? static_cast<T>(x) : static_cast<T>(std::copysign(std::numeric_limits<double>::infinity(), x));
   }
   return values;
 }

@@ -152,7 +152,7 @@ class Checker {
     for (auto it = value.begin(); it != value.end(); ++it) {
       const Path here = path / it.key();
       if (!as_integer(*it)) {
-        wrong_type(*it, Kind::index, here);
+        findings_.error("INVALID_INDEX", fmt::format("expected an index, found {}", shown(*it)), here);
       } else {
         index(*it, property, here);
       }
@@ -188,8 +188,10 @@ class Checker {
         if (!as_integer(value)) return findings_.error("INVALID_INDEX", fmt::format("expected an index, found {}", shown(value)), path);
         return index(value, property, path);
       default:
-        if (!value.is_object())
-          return property.kind == Kind::objects ? wrong_type(value, Kind::object, path) : wrong_element(value, "an object", path);
+        if (!value.is_object()) {
+          const bool is_top = path.parent->parent->parent == nullptr;  // an element of "/meshes" and the like
+          return is_top ? wrong_type(value, Kind::object, path) : wrong_element(value, "an object", path);
+        }
         if (property.kind == Kind::objects) return object(value, property.of, path);
         return named_indices(value, property, path);
     }

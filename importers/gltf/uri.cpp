@@ -56,16 +56,16 @@ int base64_digit(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
   if (c >= '0' && c <= '9') return c - '0' + 52;
-  if (c == '+') return 62;
-  if (c == '/') return 63;
+  if (c == '+' || c == '-') return 62;  // RFC 4648, section 5: safe in URIs
+  if (c == '/' || c == '_') return 63;
   return -1;
 }
 
-// RFC 4648, section 4: four digits to three bytes, the last ones padded. The number of digits without the padding; none if it is not so.
+// RFC 4648: four digits to three bytes, the last ones padded, or the padding left out. The number of digits; none if it is not so.
 std::optional<std::size_t> base64_digits(std::string_view text) {
-  if (text.size() % 4 != 0) return std::nullopt;
   std::size_t size = text.size();
   for (int i = 0; i < 2 && size > 0 && text[size - 1] == '='; ++i) --size;
+  if (size % 4 == 1 || (size != text.size() && text.size() % 4 != 0)) return std::nullopt;
   if (!std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(size), [](char c) { return base64_digit(c) >= 0; }))
     return std::nullopt;
   return size;
@@ -124,7 +124,10 @@ std::string mime_type_of(std::string_view uri) {
 
 Status check_uri(std::string_view uri) {
   if (!is_data_uri(uri)) {
-    if (uri.starts_with(':') || uri.find('\0') != std::string_view::npos)
+    // RFC 3986, 4.2: a colon in the first segment ends a scheme.
+    const std::size_t mark = uri.find_first_of(":/?#");
+    const bool is_broken = mark != std::string_view::npos && uri[mark] == ':' && !has_scheme(uri);
+    if (is_broken || uri.find('\0') != std::string_view::npos)
       return uri_error("INVALID_URI", fmt::format("expected a relative reference, found \"{}\"", shown(uri)));
     return Done{};
   }
