@@ -1,6 +1,7 @@
 #include "ies.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "etendue/photometric_transform.h"
@@ -187,9 +188,21 @@ void note_required(const IesRecord& ies, LossReport& losses) {
   }
 }
 
+bool looks_like_version(const std::string& label) {
+  std::string start;
+  for (const char c : label)
+    if (c != ' ' && c != '\t' && start.size() < 3) start += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return start == "IES";
+}
+
 std::string text_of(const IesRecord& ies, const IntensityGrid& grid) {
   std::string text;
-  if (ies.version != IesVersion::lm_63_1986) text += std::string(tags[static_cast<int>(ies.version)]) + eol;
+  const std::string first = ies.keywords.empty() ? "" : one_line(ies.keywords.front().text);
+  if (ies.version != IesVersion::lm_63_1986) {
+    text += std::string(tags[static_cast<int>(ies.version)]) + eol;
+  } else if (looks_like_version(first)) {
+    text += eol;  // 1986 has no version line: a blank one keeps the first label from being taken for one
+  }
   for (const Keyword& k : ies.keywords) text += one_line(k.name.empty() ? k.text : fmt::format("[{}] {}", k.name, k.text)) + eol;
   if (!ies.tilt) {
     text += std::string("TILT=NONE") + eol;

@@ -42,7 +42,6 @@ void report_losses(Writer& writer, const Light& light) {
 }
 
 Status write_shape(Writer& writer, const LightEntry& entry) {
-  const Light& light = entry.light;
   return std::visit(
       [&](const auto& shape) -> Status {
         using S = std::decay_t<decltype(shape)>;
@@ -58,12 +57,9 @@ Status write_shape(Writer& writer, const LightEntry& entry) {
         if constexpr (std::is_same_v<S, LineShape>) return write_line(writer, entry, shape);
         if constexpr (std::is_same_v<S, MeshShape>) return write_mesh_light(writer, entry, shape);
         if constexpr (std::is_same_v<S, EnvironmentShape>) return write_environment(writer, entry, shape);
-        if constexpr (std::is_same_v<S, PhotometricShape>) {
-          return unsupported("light '" + light.name + "' is a photometric one, which the Mitsuba exporter does not write yet",
-                             light.source);
-        }
+        if constexpr (std::is_same_v<S, PhotometricShape>) return write_photometric(writer, entry);
       },
-      light.shape);
+      entry.light.shape);
 }
 
 Status check_environments(const Scene& scene, const ExportOptions& options) {
@@ -92,7 +88,7 @@ Status write_lights(Writer& writer) {
     if (!lit && !has_body(light.shape)) continue;
     report_losses(writer, light);
     LightEntry entry{light, i, "light_" + std::to_string(i) + "_" + id_safe(light.name), lit, {}};
-    if (lit && !std::holds_alternative<PhotometricShape>(light.shape)) {
+    if (lit) {
       Result<Resolved> resolved = resolve(light, mesh_area_of(scene, light));
       if (!resolved) return resolved.error();
       entry.resolved = *resolved;

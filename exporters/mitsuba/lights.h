@@ -33,6 +33,9 @@ Status write_tube(Writer& writer, const LightEntry& entry, const TubeShape& tube
 Status write_line(Writer& writer, const LightEntry& entry, const LineShape& line);
 Status write_mesh_light(Writer& writer, const LightEntry& entry, const MeshShape& mesh);
 
+// photometric.cpp
+Status write_photometric(Writer& writer, const LightEntry& entry);
+
 // environment.cpp
 Status write_environment(Writer& writer, const LightEntry& entry, const EnvironmentShape& environment);
 

@@ -1,5 +1,5 @@
 #include "etendue/units.h"
-#include "lights.h"
+#include "projector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,22 +27,6 @@ std::uint32_t spot_texels(const SpotShape& spot) {
   return needed <= 1024 ? 1024 : 2048;
 }
 
-// A function of the direction (x left, y up, 1 forward) on the square |x|, |y| <= extent, row 0 at the top, columns from the left.
-template <class F>
-std::vector<float> tabulate(std::uint32_t width, std::uint32_t height, double x_extent, double y_extent, const F& rgb_at) {
-  std::vector<float> rgb;
-  rgb.reserve(std::size_t{width} * height * 3);
-  for (std::uint32_t row = 0; row < height; ++row) {
-    const double y = (1 - 2 * (row + 0.5) / height) * y_extent;
-    for (std::uint32_t column = 0; column < width; ++column) {
-      const double x = (1 - 2 * (column + 0.5) / width) * x_extent;
-      const Rgb value = rgb_at(x, y);
-      for (int c = 0; c < 3; ++c) rgb.push_back(static_cast<float>(value[c]));
-    }
-  }
-  return rgb;
-}
-
 // The texel value for f >= 0 with which bilinear interpolation has the mean of f: the trapezium rule is h^2 / 12 (f_xx + f_yy) too large,
 // with second differences over texels h apart. Without it a spot's edge, where f is convex, is too bright everywhere.
 template <class F>
@@ -50,28 +34,6 @@ double mean_keeping(const F& f, double x, double y, double h) {
   const double centre = f(x, y);
   const double second_differences = f(x - h, y) + f(x + h, y) + f(x, y - h) + f(x, y + h) - 4 * centre;
   return std::max(0.0, centre - second_differences / 12);
-}
-
-// Mitsuba's projector sends pi t / cos^3 for a texture value t: t = I cos^3 / pi, with cos = 1 / sqrt(1 + x^2 + y^2) of the direction
-// (x, y, 1).
-Rgb projector_value(const Rgb& intensity, double x, double y) {
-  const double cosine = 1 / std::sqrt(1 + x * x + y * y);
-  return intensity * (cosine * cosine * cosine / pi);
-}
-
-pugi::xml_node add_clamped_bitmap(pugi::xml_node parent, const char* name, const std::string& file) {
-  pugi::xml_node bitmap = add_plugin(parent, "texture", "bitmap", {}, name);
-  add_string(bitmap, "filename", file);
-  add_string(bitmap, "wrap_mode", "clamp");
-  return bitmap;
-}
-
-void add_projector(Writer& writer, const std::string& id, const std::string& file, double fov_rad, const Transform& to_world) {
-  pugi::xml_node emitter = add_plugin(writer.root, "emitter", "projector", id);
-  add_clamped_bitmap(emitter, "irradiance", file);
-  add_float(emitter, "fov", fov_rad * 180 / pi);
-  add_string(emitter, "fov_axis", "x");
-  add_matrix(emitter, "to_world", to_world);
 }
 
 // A hemisphere as five faces of a cube: one ahead, four around, whose "up" is the light's axis, so that all four show the same picture.
@@ -98,6 +60,27 @@ Status write_wide_spot(Writer& writer, const LightEntry& entry, const SpotShape&
 }
 
 }  // namespace
+
+Rgb projector_value(const Rgb& intensity, double x, double y) {
+  const double cosine = 1 / std::sqrt(1 + x * x + y * y);
+  return intensity * (cosine * cosine * cosine / pi);
+}
+
+pugi::xml_node add_clamped_bitmap(pugi::xml_node parent, const char* name, const std::string& file) {
+  pugi::xml_node bitmap = add_plugin(parent, "texture", "bitmap", {}, name);
+  add_string(bitmap, "filename", file);
+  add_string(bitmap, "wrap_mode", "clamp");
+  return bitmap;
+}
+
+pugi::xml_node add_projector(Writer& writer, const std::string& id, const std::string& file, double fov_rad, const Transform& to_world) {
+  pugi::xml_node emitter = add_plugin(writer.root, "emitter", "projector", id);
+  add_clamped_bitmap(emitter, "irradiance", file);
+  add_float(emitter, "fov", fov_rad * 180 / pi);
+  add_string(emitter, "fov_axis", "x");
+  add_matrix(emitter, "to_world", to_world);
+  return emitter;
+}
 
 Status write_point(Writer& writer, const LightEntry& entry) {
   pugi::xml_node emitter = add_plugin(writer.root, "emitter", "point", entry.id);

@@ -26,7 +26,8 @@ Result<Imported> read_scene(const fs::path& file, const ImportOptions& options, 
   imported.scene.format = format;
   Light light;
   light.name = file.stem().string();
-  light.shape = PhotometricShape{file.generic_string()};
+  light.shape =
+      PhotometricShape{file.generic_string(), {}, std::make_shared<const IntensityDistribution>(std::move(read_in->distribution))};
   imported.scene.lights.push_back(std::move(light));
   imported.diagnostics = std::move(read_in->diagnostics);
   imported.stats.bytes_read = bytes->size();

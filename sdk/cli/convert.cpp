@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "comparison_text.h"
+#include "importers/photometric_lights/photometric_lights.h"
 #include "verbs.h"
 
 namespace etendue::cli {
@@ -63,6 +64,7 @@ void convert_one(Converted& job, const Options& options, Size size) {
   if (!importer) return void(job.error = importer.error());
   Result<Imported> imported = (*importer)->read(job.in, {});
   if (!imported) return void(job.error = imported.error());
+  imported->diagnostics.append(read_photometric_lights(imported->scene));
   job.diagnostics.append(imported->diagnostics);
   if (imported->diagnostics.has_errors()) {
     job.error = Error{"INPUT_INVALID", fmt::format("{} has errors and is not converted", job.in.string()), {}, "", {}};

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "describe.h"
+#include "etendue/intensity_web.h"
 #include "verbs.h"
 
 namespace etendue::cli {
@@ -34,7 +35,14 @@ void print_table(const Session& session, const char* title, const std::vector<st
   for (const auto& [name, text] : rows) session.print(fmt::format("  {:<{}}  {}", name, width, text));
 }
 
+// What a photometric file emits as it is, before colour, filter and a stated flux.
+std::string web_text(const PhotometricShape& shape) {
+  const Result<IntensityWeb> web = shape.distribution ? IntensityWeb::of(*shape.distribution) : Result<IntensityWeb>(Error{});
+  return web ? fmt::format("  up to {:.6g} cd, {:.6g} lm", web->max_cd(), web->flux_lm()) : "";
+}
+
 std::string resolved_text(const Scene& scene, const Light& light) {
+  if (const auto* photometric = std::get_if<PhotometricShape>(&light.shape)) return web_text(*photometric);
   const Result<Resolved> resolved = resolve(light, mesh_area_of(scene, light));
   if (!resolved) return "";
   static constexpr const char* units[] = {"cd", "cd/m2", "lx", "cd"};

@@ -13,6 +13,7 @@
 #include "importers/eulumdat/eulumdat.h"
 #include "importers/gltf/gltf.h"
 #include "importers/ies/ies.h"
+#include "importers/photometric_lights/photometric_lights.h"
 #include "importers/rig/rig.h"
 
 namespace etendue::cli {
@@ -145,6 +146,7 @@ Result<Imported> read_asset(Session& session, const std::string& file, const Imp
   if (!importer) return importer.error();
   Result<Imported> imported = (*importer)->read(file, options);
   if (!imported) return imported;
+  if (has(options.need, Need::lights)) imported->diagnostics.append(read_photometric_lights(imported->scene));
   session.diagnostics.append(imported->diagnostics);
   const auto add = [&](const char* key, std::uint64_t count) { session.stats[key] = session.stats.value(key, std::uint64_t{0}) + count; };
   add("bytes_read", imported->stats.bytes_read);

@@ -1,15 +1,15 @@
-# find_package(etendue COMPONENTS core eval): targets etendue::core, etendue::eval. Without COMPONENTS: all that are installed.
+# find_package(etendue COMPONENTS core photometry eval): targets etendue::core, etendue::photometry, etendue::eval. Without COMPONENTS: all that are installed.
 include(CMakeFindDependencyMacro)
 find_dependency(fmt)
 find_dependency(nlohmann_json)
 find_dependency(hwy)
-foreach(component core eval)
+foreach(component core photometry eval)
   include(${CMAKE_CURRENT_LIST_DIR}/etendue-${component}.cmake)
   set(etendue_${component}_FOUND TRUE)
 endforeach()
 foreach(component IN LISTS etendue_FIND_COMPONENTS)
   if(etendue_FIND_REQUIRED_${component} AND NOT etendue_${component}_FOUND)
     set(etendue_FOUND FALSE)
-    set(etendue_NOT_FOUND_MESSAGE "etendue has no component '${component}' here; it has core, eval")
+    set(etendue_NOT_FOUND_MESSAGE "etendue has no component '${component}' here; it has core, photometry, eval")
   endif()
 endforeach()

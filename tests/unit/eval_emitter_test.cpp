@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "photometry_builder.h"
+
 #include <cmath>
 
 namespace {
@@ -148,6 +150,20 @@ TEST(EmitterOf, WindowAndColour) {
   EXPECT_NEAR(luminance_of(lux), 10.0 / 4 * (1 - 1.0 / 16), 1e-12);
   EXPECT_NEAR(lux.y / lux.x, 0.5, 1e-12);
   EXPECT_EQ(illuminance(e, {0, 0, -4.01}, {0, 0, 1}), Rgb{});
+}
+
+// The web's own frame is the light's: the nadir along -Z, C0 along +X. A stated flux scales the whole web.
+TEST(EmitterOf, PhotometricLightsSendTheirWeb) {
+  const auto web = std::make_shared<const IntensityDistribution>(
+      test::distribution_of(WebType::c, WebSymmetry::none, test::steps(0, 180, 5), test::steps(0, 360, 5),
+                            [](const Vec3d& u) { return 100 + 30 * u.x - 20 * u.y - 40 * u.z; }));
+  const Emitter e = *emitter_of(light_with(PhotometricShape{"", {}, web}, Emission::Given::as_file, 0));
+  EXPECT_NEAR(luminance_of(illuminance(e, {0, 0, -2}, {0, 0, 1})), 140.0 / 4, 1e-9);
+  EXPECT_NEAR(luminance_of(illuminance(e, {2, 0, 0}, {-1, 0, 0})), 130.0 / 4, 1e-9);
+  EXPECT_NEAR(luminance_of(illuminance(e, {0, 2, 0}, {0, -1, 0})), 80.0 / 4, 1e-9);
+  const Emitter scaled = *emitter_of(light_with(PhotometricShape{"", {}, web}, Emission::Given::flux, 4000 * pi));
+  EXPECT_NEAR(luminance_of(illuminance(scaled, {0, 0, -2}, {0, 0, 1})), 10 * 140.0 / 4,
+              0.05);  // the web's own flux is 400 pi within its steps
 }
 
 TEST(EmitterOf, RefusesWhatItCannotDo) {

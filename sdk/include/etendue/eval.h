@@ -14,6 +14,10 @@
 #include <variant>
 #include <vector>
 
+namespace etendue {
+class IntensityWeb;
+}
+
 namespace etendue::eval {
 
 // ---- Surfaces ----
@@ -68,11 +72,15 @@ double window_at(const Window& window, double distance_m);
 // Emission pattern over a planar emitter's own uv in [0,1]^2, or a mesh's texture coordinates; multiplies the radiance.
 using Pattern = std::function<Rgb(Vec2d uv)>;
 
+// cd towards a direction of the light's own frame, times PunctualEmitter::intensity.
+struct ProfileShape {
+  std::shared_ptr<const IntensityWeb> web;
+};
 struct PunctualEmitter {
   Vec3d position;
   Transform frame;  // rigid; emission along its -Z
-  Rgb intensity;    // cd on the axis
-  std::variant<PointShape, SpotShape, FrustumShape> shape;
+  Rgb intensity;    // cd on the axis; of a profile the factor on its candelas
+  std::variant<PointShape, SpotShape, FrustumShape, ProfileShape> shape;
 };
 struct DistantEmitter {
   Vec3d towards;          // unit, from any point to the light
@@ -133,7 +141,7 @@ struct EmitterParts {
   std::vector<std::array<Vec2d, 3>> uvs;  // of mesh lights with a pattern, as many as triangles
 };
 // Patterns lie upright as seen from the emitting side: uv (0, 0) is the top left there, where +Y is up (and so +X is left).
-// Errors as resolve(). EVALUATION_UNSUPPORTED: photometric lights, tubes without caps that emit on both sides.
+// Errors as resolve(). EVALUATION_UNSUPPORTED: photometric lights that nobody read, tubes without caps that emit on both sides.
 Result<Emitter> emitter_of(const Light& light, const EmitterParts& parts = {});
 
 // width * height linear RGB in cd/m2, row 0 at the top (+Y).

@@ -50,9 +50,14 @@ class AngleAxis {
     while (x >= nodes_[i + 1] && i < last_) ++i;
     return i;
   }
+  // Where x lies in interval i, 0 to 1.
+  double position(std::uint32_t i, double x) const {
+    const double t = (x - nodes_[i]) * inverse_width_[i];
+    return t > 0 ? (t < 1 ? t : 1) : 0;
+  }
 
  private:
-  std::vector<double> nodes_;
+  std::vector<double> nodes_, inverse_width_;
   std::vector<std::uint32_t> first_;  // per cell of equal width, the interval of its lower end
   double cells_per_unit_ = 0, last_cell_ = 0;
   std::uint32_t last_ = 0;
@@ -93,11 +98,17 @@ class IntensityWeb {
   // Integral of profile(plane) sin(theta) dtheta over part of an interval, angles in degrees.
   double profile_integral(std::size_t plane, std::uint32_t interval, double from_deg, double to_deg) const;
 
-  // From polar angle and azimuth to the table; false where it is dark.
-  bool fold(double& polar_deg, double& azimuth_deg) const;
+  // From the web's own angles to the table, and back from one of the copies() that mirror it.
+  struct Folded {
+    double polar_deg = 0, azimuth_deg = 0;
+    int copy = 0;      // 0 to copies() - 1
+    bool lit = false;  // false: nothing is tabulated there
+  };
+  Folded folded(const WebAngles& own) const;
+  WebAngles unfolded(double polar_deg, double azimuth_deg, int copy) const;
 
  private:
-  double at_polar(double polar_deg, double azimuth_deg, double cosine) const;
+  double at_table(double polar_deg, double azimuth_deg) const;
   double plane_integral(std::size_t plane, double from_deg, double to_deg) const;
 
   WebType type_ = WebType::c;

@@ -8,6 +8,7 @@
 #include "etendue/vec.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -50,9 +51,12 @@ struct MeshShape {
   std::uint32_t mesh = 0;  // index into Scene::meshes; emits on the counter-clockwise side
   Vec3d scale{1, 1, 1};    // applied before the light's transform, so that this stays rigid
 };
+struct IntensityDistribution;  // photometry.h
 struct PhotometricShape {
   std::string file;           // .ies or .ldt; "" if embedded
   SharedBytes embedded = {};  // the text of such a file, inside an asset
+  // What it says; null until somebody reads it (read_photometric_lights()).
+  std::shared_ptr<const IntensityDistribution> distribution = {};
 };
 struct EnvironmentShape {
   // Index into Scene::images; none: constant. Latitude-longitude as in OpenEXR and Mitsuba: the direction (x, y, z) in the light's frame is

@@ -1,5 +1,6 @@
 // From a light as authored to what shines in the world.
 #include "etendue/eval.h"
+#include "etendue/intensity_web.h"
 #include "triangulate.h"
 
 #include <algorithm>
@@ -91,13 +92,27 @@ struct ShapeOf {
     const double radius = 0.5 * s.diameter_rad, sine = std::sin(radius);
     return DistantEmitter{frame.columns[2], radius > 0 ? rgb * (pi * sine * sine) : rgb, radius};
   }
-  EmitterShape operator()(const PhotometricShape&) const { return EmitterShape{}; }
+  EmitterShape operator()(const PhotometricShape&) const { return EmitterShape{}; }  // profile_of(), which may fail
 };
+
+// A stated flux scales the whole web: `resolved` has it times the luminance of colour and filter, which stand in its rgb as well.
+Result<PunctualEmitter> profile_of(const Light& light, const PhotometricShape& shape, const Resolved& resolved, const Transform& frame) {
+  if (!shape.distribution) return unsupported(light, "its photometric file was not read");
+  Result<IntensityWeb> web = IntensityWeb::of(*shape.distribution);
+  if (!web) return web.error();
+  double factor = 1;
+  if (light.emission.given == Emission::Given::flux) {
+    const double own = web->flux_lm() * luminance_of(resolved.rgb);
+    if (!(own > 0) && resolved.flux_lm > 0) return unsupported(light, "its photometric file is dark and cannot be scaled to a flux");
+    factor = own > 0 ? resolved.flux_lm / own : 0;
+  }
+  return PunctualEmitter{frame.translation, frame, resolved.rgb * factor,
+                         ProfileShape{std::make_shared<const IntensityWeb>(std::move(*web))}};
+}
 
 }  // namespace
 
 Result<Emitter> emitter_of(const Light& light, const EmitterParts& parts) {
-  if (std::holds_alternative<PhotometricShape>(light.shape)) return unsupported(light, "photometric lights cannot be evaluated yet");
   const auto* sky = std::get_if<EnvironmentShape>(&light.shape);
   if (sky != nullptr && !sky->cube.empty()) return unsupported(light, "environments in the form of a cube cannot be evaluated yet");
   const auto* tube = std::get_if<TubeShape>(&light.shape);
@@ -115,6 +130,11 @@ Result<Emitter> emitter_of(const Light& light, const EmitterParts& parts) {
 
   Emitter emitter;
   emitter.shape = std::visit(ShapeOf{light, parts, resolved->rgb, frame}, light.shape);
+  if (const auto* photometric = std::get_if<PhotometricShape>(&light.shape)) {
+    Result<PunctualEmitter> profile = profile_of(light, *photometric, *resolved, frame);
+    if (!profile) return profile.error();
+    emitter.shape = std::move(*profile);
+  }
   emitter.two_sided = light.two_sided;
   emitter.window = {light.falloff, light.range_m.value_or(0)};
   emitter.pattern = parts.pattern;

@@ -1,5 +1,7 @@
 #include "punctual.h"
 
+#include "etendue/intensity_web.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,6 +46,7 @@ std::optional<Incident> incident_from(const PunctualEmitter& emitter, const Wind
     double operator()(const PointShape&) const { return 1; }
     double operator()(const SpotShape& s) const { return angular_falloff(s, local); }
     double operator()(const FrustumShape& f) const { return angular_falloff(f, local); }
+    double operator()(const ProfileShape& p) const { return p.web->towards(local); }
   };
   const double share = std::visit(Share{local}, emitter.shape);
   return Incident{towards, distance, emitter.intensity * (share * window_at(window, distance) / (distance * distance))};

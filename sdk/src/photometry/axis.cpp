@@ -10,6 +10,7 @@ AngleAxis::AngleAxis(std::vector<double> nodes) : nodes_(std::move(nodes)) {
   if (nodes_.size() < 2) return;
   const std::size_t intervals = nodes_.size() - 1;
   last_ = static_cast<std::uint32_t>(intervals - 1);
+  for (std::size_t i = 0; i < intervals; ++i) inverse_width_.push_back(1 / (nodes_[i + 1] - nodes_[i]));
   double narrowest = nodes_[1] - nodes_[0];
   for (std::size_t i = 0; i < intervals; ++i) narrowest = std::min(narrowest, nodes_[i + 1] - nodes_[i]);
   const double range = nodes_.back() - nodes_.front();

@@ -101,23 +101,49 @@ int IntensityWeb::copies() const {
   }
 }
 
-bool IntensityWeb::fold(double& polar_deg, double& azimuth_deg) const {
+IntensityWeb::Folded IntensityWeb::folded(const WebAngles& own) const {
+  Folded f{own.vertical_deg, own.horizontal_deg, 0, false};
+  if (type_ == WebType::b) std::swap(f.polar_deg, f.azimuth_deg);
   if (type_ != WebType::c) {
-    if (mirrors_polar(type_, symmetry_) && polar_deg < 90) polar_deg = 180 - polar_deg;
-    if (mirrors_azimuth(type_, symmetry_)) azimuth_deg = std::abs(azimuth_deg);
-    return polar_deg >= polar_.nodes().front() && polar_deg <= polar_.nodes().back() && azimuth_deg >= azimuth_.nodes().front() &&
-           azimuth_deg <= azimuth_.nodes().back();
+    f.polar_deg += 90;
+    int bit = 1;
+    if (mirrors_azimuth(type_, symmetry_)) {
+      if (f.azimuth_deg < 0) f.azimuth_deg = -f.azimuth_deg, f.copy = bit;
+      bit = 2;
+    }
+    if (mirrors_polar(type_, symmetry_) && f.polar_deg < 90) f.polar_deg = 180 - f.polar_deg, f.copy += bit;
+    f.lit = f.polar_deg >= polar_.nodes().front() && f.polar_deg <= polar_.nodes().back() && f.azimuth_deg >= azimuth_.nodes().front() &&
+            f.azimuth_deg <= azimuth_.nodes().back();
+    return f;
   }
-  if (!(polar_deg >= polar_.nodes().front() && polar_deg <= polar_.nodes().back())) return false;
-  if (symmetry_ == WebSymmetry::rotational) return true;
+  f.lit = f.polar_deg >= polar_.nodes().front() && f.polar_deg <= polar_.nodes().back();
   const double start = azimuth_.nodes().front();
-  double past = azimuth_deg - start;
+  double past = f.azimuth_deg - start;
   if (past < 0) past += 360;
-  if (past < 0 || past > 360) past -= 360 * std::floor(past / 360);
-  if (symmetry_ != WebSymmetry::none && past > 180) past = 360 - past;
-  if (symmetry_ == WebSymmetry::quadrant && past > 90) past = 180 - past;
-  azimuth_deg = start + past;
-  return true;
+  if (!(past >= 0 && past <= 360)) past -= 360 * std::floor(past / 360);
+  const bool quadrant = symmetry_ == WebSymmetry::quadrant;
+  if ((quadrant || symmetry_ == WebSymmetry::about_0_180 || symmetry_ == WebSymmetry::about_90_270) && past > 180) {
+    past = 360 - past;
+    f.copy = quadrant ? 2 : 1;
+  }
+  if (quadrant && past > 90) past = 180 - past, f.copy += 1;
+  f.azimuth_deg = start + past;
+  return f;
+}
+
+WebAngles IntensityWeb::unfolded(double polar, double azimuth, int copy) const {
+  if (type_ != WebType::c) {
+    const bool azimuths = mirrors_azimuth(type_, symmetry_);
+    if (azimuths && (copy & 1) != 0) azimuth = -azimuth;
+    if ((copy & (azimuths ? 2 : 1)) != 0) polar = 180 - polar;
+    return type_ == WebType::b ? WebAngles{azimuth, polar - 90} : WebAngles{polar - 90, azimuth};
+  }
+  const double start = azimuth_.nodes().front();
+  double past = azimuth - start;
+  const bool quadrant = symmetry_ == WebSymmetry::quadrant;
+  if (quadrant && (copy & 1) != 0) past = 180 - past;
+  if ((copy & (quadrant ? 2 : 1)) != 0) past = 360 - past;
+  return {polar, start + past};
 }
 
 double IntensityWeb::profile(std::size_t plane, std::uint32_t i, double polar_deg, double cosine) const {
@@ -128,7 +154,7 @@ double IntensityWeb::profile(std::size_t plane, std::uint32_t i, double polar_de
     const double t = std::clamp((cosine_[i] - cosine) / (cosine_[i] - cosine_[i + 1]), 0.0, 1.0);
     return y[0] + t * (y[1] - y[0]);
   }
-  const double t = std::clamp((polar_deg - x[i]) / width, 0.0, 1.0);
+  const double t = polar_.position(i, polar_deg);
   if (interpolation_ == Interpolation::linear) return y[0] + t * (y[1] - y[0]);
   const double* const s = &slope_[plane * x.size() + i];
   const double u = 1 - t;
@@ -136,21 +162,30 @@ double IntensityWeb::profile(std::size_t plane, std::uint32_t i, double polar_de
   return std::clamp(value, std::min(y[0], y[1]), std::max(y[0], y[1]));  // rounding alone could leave the range
 }
 
-double IntensityWeb::at_polar(double polar_deg, double azimuth_deg, double cosine) const {
+double IntensityWeb::at_table(double polar_deg, double azimuth_deg) const {
   const std::uint32_t i = polar_.interval(polar_deg);
-  if (symmetry_ == WebSymmetry::rotational) return profile(0, i, polar_deg, cosine);
-  const std::uint32_t j = azimuth_.interval(azimuth_deg);
-  const std::vector<double>& planes = azimuth_.nodes();
-  const double t = std::clamp((azimuth_deg - planes[j]) / (planes[j + 1] - planes[j]), 0.0, 1.0);
-  const double a = profile(j, i, polar_deg, cosine), b = profile(j + 1, i, polar_deg, cosine);
-  return a + t * (b - a);
+  const bool one_plane = symmetry_ == WebSymmetry::rotational;
+  const std::uint32_t j = one_plane ? 0 : azimuth_.interval(azimuth_deg);
+  double near = 0, far = 0;
+  if (interpolation_ == Interpolation::linear) {  // the usual case, without a call
+    const double t = polar_.position(i, polar_deg);
+    const double* const a = &candela_[j * polar_.nodes().size() + i];
+    near = a[0] + t * (a[1] - a[0]);
+    if (one_plane) return near;
+    const double* const b = a + polar_.nodes().size();
+    far = b[0] + t * (b[1] - b[0]);
+  } else {
+    const double cosine = interpolation_ == Interpolation::cosine ? std::cos(polar_deg * degree) : 0;
+    near = profile(j, i, polar_deg, cosine);
+    if (one_plane) return near;
+    far = profile(j + 1, i, polar_deg, cosine);
+  }
+  return near + azimuth_.position(j, azimuth_deg) * (far - near);
 }
 
 double IntensityWeb::at_own_angles(const WebAngles& angles) const {
-  double polar = type_ == WebType::c ? angles.vertical_deg : 90 + (type_ == WebType::b ? angles.horizontal_deg : angles.vertical_deg);
-  double azimuth = type_ == WebType::b ? angles.vertical_deg : angles.horizontal_deg;
-  if (!fold(polar, azimuth)) return 0;
-  return at_polar(polar, azimuth, interpolation_ == Interpolation::cosine ? std::cos(polar * degree) : 0);
+  const Folded f = folded(angles);
+  return f.lit ? at_table(f.polar_deg, f.azimuth_deg) : 0;
 }
 
 double IntensityWeb::at(double c_deg, double gamma_deg) const {

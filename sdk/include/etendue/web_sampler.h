@@ -1,0 +1,45 @@
+// Directions drawn from a web in proportion to its intensity.
+#pragma once
+
+#include "etendue/intensity_web.h"
+
+#include <array>
+
+namespace etendue {
+
+// Exact: the density is I(direction) / flux of the very interpolant that is evaluated, so an unoccluded flux has no variance. The map from
+// the square is one to one and continuous but at the borders of the table's cells.
+class WebSampler {
+ public:
+  struct Sample {
+    Vec3d direction;  // unit, in the luminaire's frame
+    double pdf = 0;   // 1/sr; 0: the web is dark
+    double cd = 0;
+  };
+
+  // Keeps a reference: the web must outlive it. 16 bytes a cell of the table beside it.
+  explicit WebSampler(const IntensityWeb& web);
+
+  Sample sample(const Vec2d& u) const;  // u in [0, 1)^2
+  double pdf(const Vec3d& direction) const { return web_->flux_lm() > 0 ? web_->towards(direction) / web_->flux_lm() : 0; }
+  // The u for which sample() gives this direction, to 1e-9; anything where the web is dark.
+  Vec2d inverse(const Vec3d& direction) const;
+
+ private:
+  struct Cell {
+    std::uint32_t plane, interval;
+  };
+  struct Polar {
+    double angle_deg, sine, cosine;
+  };
+  std::array<double, 2> ends(const Cell& cell) const;  // mean of the cell's two planes at both polar angles
+  double share_below(const Cell& cell, double polar_deg) const;
+  Polar polar_for_share(const Cell& cell, double share) const;
+
+  const IntensityWeb* web_;
+  std::size_t intervals_ = 0, planes_ = 0;  // of the table, minus one; rotational: one plane
+  std::vector<double> running_;             // flux of the cells before, over the total; one more than cells
+  std::vector<std::uint32_t> first_;        // for equal parts of [0, 1), the cell of their lower end
+};
+
+}  // namespace etendue
