@@ -42,25 +42,34 @@ class AngleAxis {
   AngleAxis() = default;
   explicit AngleAxis(std::vector<double> nodes);
   const std::vector<double>& nodes() const { return nodes_; }
-  // The interval that holds x, the nearest one if none does.
-  std::uint32_t interval(double x) const {
-    if (first_.empty()) return 0;
-    const double cell = (x - nodes_.front()) * cells_per_unit_;
-    std::uint32_t i = first_[cell > 0 ? (cell < last_cell_ ? static_cast<std::uint32_t>(cell) : first_.size() - 1) : 0];
+  double first() const { return start_; }
+  double last() const { return end_; }
+  // The interval that holds x, the nearest one if none does, and where x lies in it, 0 to 1.
+  struct Place {
+    std::uint32_t interval;
+    double position;
+  };
+  Place place(double x) const {
+    const double cell = (x - start_) * cells_per_unit_;
+    std::uint32_t i = cell > 0 ? (cell < last_cell_ ? static_cast<std::uint32_t>(cell) : static_cast<std::uint32_t>(last_cell_)) : 0;
+    if (uniform_) return {i, clamped((x - (start_ + i * step_)) * cells_per_unit_)};
+    if (nodes_.size() < 2) return {0, 0};
+    i = first_[i];
     while (x >= nodes_[i + 1] && i < last_) ++i;
-    return i;
+    return {i, clamped((x - nodes_[i]) * inverse_width_[i])};
   }
-  // Where x lies in interval i, 0 to 1.
-  double position(std::uint32_t i, double x) const {
-    const double t = (x - nodes_[i]) * inverse_width_[i];
-    return t > 0 ? (t < 1 ? t : 1) : 0;
-  }
+  std::uint32_t interval(double x) const { return place(x).interval; }
+  // Where x lies in interval i.
+  double position(std::uint32_t i, double x) const { return clamped((x - nodes_[i]) * inverse_width_[i]); }
 
  private:
   std::vector<double> nodes_, inverse_width_;
   std::vector<std::uint32_t> first_;  // per cell of equal width, the interval of its lower end
-  double cells_per_unit_ = 0, last_cell_ = 0;
+  static double clamped(double t) { return t > 0 ? (t < 1 ? t : 1) : 0; }
+
+  double start_ = 0, end_ = 0, step_ = 0, cells_per_unit_ = 0, last_cell_ = 0;
   std::uint32_t last_ = 0;
+  bool uniform_ = false;  // nodes are start + i step to rounding
 };
 
 class IntensityWeb {
@@ -109,6 +118,7 @@ class IntensityWeb {
 
  private:
   double at_table(double polar_deg, double azimuth_deg) const;
+  double at_usual(double gamma_deg, double c_deg) const;
   double plane_integral(std::size_t plane, double from_deg, double to_deg) const;
 
   WebType type_ = WebType::c;
@@ -120,6 +130,9 @@ class IntensityWeb {
   std::vector<double> slope_;    // cubic alone, cd per degree
   std::vector<double> cosine_;   // of the polar nodes
   double flux_lm_ = 0, max_cd_ = 0;
+  bool usual_ = false;                             // type C, linear in the angle
+  std::size_t angles_ = 0;                         // polar nodes
+  double half_deg_ = 1e300, quarter_deg_ = 1e300;  // type C: beyond which a mirror folds, from the first plane
 };
 
 }  // namespace etendue

@@ -37,6 +37,7 @@ class WebSampler {
   Polar polar_for_share(const Cell& cell, double share) const;
 
   const IntensityWeb* web_;
+  std::vector<Polar> node_;                 // of the table's polar angles
   std::size_t intervals_ = 0, planes_ = 0;  // of the table, minus one; rotational: one plane
   std::vector<double> running_;             // flux of the cells before, over the total; one more than cells
   std::vector<std::uint32_t> first_;        // for equal parts of [0, 1), the cell of their lower end

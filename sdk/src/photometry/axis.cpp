@@ -7,14 +7,24 @@ namespace etendue {
 
 // Cells as narrow as the narrowest interval answer at once; eight cells an interval are the most, then a few steps follow.
 AngleAxis::AngleAxis(std::vector<double> nodes) : nodes_(std::move(nodes)) {
+  if (nodes_.empty()) return;
+  start_ = nodes_.front();
+  end_ = nodes_.back();
   if (nodes_.size() < 2) return;
   const std::size_t intervals = nodes_.size() - 1;
   last_ = static_cast<std::uint32_t>(intervals - 1);
   for (std::size_t i = 0; i < intervals; ++i) inverse_width_.push_back(1 / (nodes_[i + 1] - nodes_[i]));
+  step_ = (end_ - start_) / static_cast<double>(intervals);
+  uniform_ = true;
+  for (std::size_t i = 0; i <= intervals; ++i) {
+    constexpr double rounding = 1e-15;
+    uniform_ = uniform_ && std::abs(nodes_[i] - (start_ + static_cast<double>(i) * step_)) <= rounding * 720;
+  }
   double narrowest = nodes_[1] - nodes_[0];
   for (std::size_t i = 0; i < intervals; ++i) narrowest = std::min(narrowest, nodes_[i + 1] - nodes_[i]);
   const double range = nodes_.back() - nodes_.front();
-  const auto cells = static_cast<std::size_t>(std::clamp(std::ceil(range / narrowest - 1e-6), 1.0, 8.0 * static_cast<double>(intervals)));
+  const auto cells =
+      uniform_ ? intervals : static_cast<std::size_t>(std::clamp(std::ceil(range / narrowest), 1.0, 8.0 * static_cast<double>(intervals)));
   cells_per_unit_ = static_cast<double>(cells) / range;
   last_cell_ = static_cast<double>(cells - 1);
   first_.resize(cells);

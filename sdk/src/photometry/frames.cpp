@@ -4,34 +4,24 @@
 // An arc tangent of both legs keeps all digits at the poles, where an arc sine loses half of them.
 #include <cmath>
 
+#include "angle.h"
 #include "etendue/intensity_web.h"
 
 namespace etendue {
 namespace {
 
-constexpr double degree = pi / 180;
-double degrees_of(double y, double x) { return std::atan2(y, x) / degree; }
+using photometry::atan2_deg;
+using photometry::sine_cosine_deg;
 
-// Sine and cosine, exact at multiples of 90 degrees.
-struct SineCosine {
-  double sine, cosine;
-};
-SineCosine sine_cosine(double angle_deg) {
-  const double quarter = std::nearbyint(angle_deg / 90), rest = (angle_deg - 90 * quarter) * degree;
-  const double s = std::sin(rest), c = std::cos(rest);
-  switch (static_cast<int>(quarter) & 3) {
-    case 0:
-      return {s, c};
-    case 1:
-      return {c, -s};
-    case 2:
-      return {-s, -c};
-    default:
-      return {-c, s};
-  }
+// Of both legs; scaled where their squares would leave the range of a double.
+double leg(double a, double b) {
+  const double square = a * a + b * b;
+  return square > 1e-290 && square < 1e290 ? std::sqrt(square) : std::hypot(a, b);
 }
 
 double wrapped(double angle_deg) {
+  if (angle_deg >= 0 && angle_deg < 360) return angle_deg;
+  if (angle_deg < 0 && angle_deg >= -180) return angle_deg + 360 < 360 ? angle_deg + 360 : 0;
   const double turn = angle_deg - 360 * std::floor(angle_deg / 360);
   return turn < 360 ? turn : 0;
 }
@@ -44,18 +34,18 @@ WebAngles angles_of(WebType type, const Vec3d& direction, const WebFrame& frame)
   const double x = direction.x, y = frame.clockwise ? -direction.y : direction.y, z = direction.z;
   switch (type) {
     case WebType::c:
-      return {degrees_of(std::hypot(x, y), -z), wrapped(degrees_of(y, x) - frame.turn_deg)};
+      return {atan2_deg(leg(x, y), -z), wrapped(atan2_deg(y, x) - frame.turn_deg)};
     case WebType::a:
-      return {degrees_of(x, std::hypot(y, z)), degrees_of(y, -z)};
+      return {atan2_deg(x, leg(y, z)), atan2_deg(y, -z)};
     case WebType::b:
       break;
   }
-  return {degrees_of(x, -z), degrees_of(y, std::hypot(x, z))};
+  return {atan2_deg(x, -z), atan2_deg(y, leg(x, z))};
 }
 
 Vec3d direction_of(WebType type, const WebAngles& angles, const WebFrame& frame) {
-  const SineCosine v = sine_cosine(angles.vertical_deg);
-  const SineCosine h = sine_cosine(type == WebType::c ? angles.horizontal_deg + frame.turn_deg : angles.horizontal_deg);
+  const photometry::SineCosine v = sine_cosine_deg(angles.vertical_deg);
+  const photometry::SineCosine h = sine_cosine_deg(type == WebType::c ? angles.horizontal_deg + frame.turn_deg : angles.horizontal_deg);
   Vec3d u;
   switch (type) {
     case WebType::c:

@@ -2,13 +2,13 @@
 // distribution, with the remainder of the same random number.
 #include "etendue/web_sampler.h"
 
+#include "angle.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace etendue {
 namespace {
-
-constexpr double degree = pi / 180;
 
 // Where the integral of a density that runs linearly from a to b over [0, 1] reaches `share` of itself. No difference of like numbers.
 double linear_inverse(double a, double b, double share) {
@@ -17,22 +17,20 @@ double linear_inverse(double a, double b, double share) {
 }
 double linear_share(double a, double b, double t) { return a + b > 0 ? t * (2 * a + t * (b - a)) / (a + b) : t; }
 
-struct SineCosine {
-  double sine, cosine;
-};
-// Taylor to 1e-17 below .2, where most tables' steps are.
-SineCosine sine_cosine(double x) {
-  if (x > 0.2) return {std::sin(x), std::cos(x)};
-  const double q = x * x;
-  return {x * (1 - q / 6 * (1 - q / 20 * (1 - q / 42 * (1 - q / 72 * (1 - q / 110))))),
-          1 - q / 2 * (1 - q / 12 * (1 - q / 30 * (1 - q / 56 * (1 - q / 90 * (1 - q / 132)))))};
-}
+using photometry::degree;
+using photometry::SineCosine;
+
+SineCosine sine_cosine(double x) { return x < 0.785 ? photometry::sine_cosine_small(x) : SineCosine{std::sin(x), std::cos(x)}; }
 
 }  // namespace
 
 WebSampler::WebSampler(const IntensityWeb& web) : web_(&web), intervals_(web.polar().nodes().size() - 1) {
   const std::vector<double>&x = web.polar().nodes(), &phi = web.azimuth().nodes();
   planes_ = std::max<std::size_t>(phi.size() - 1, 1);
+  for (const double angle : x) {
+    const SineCosine t = photometry::sine_cosine_deg(angle);
+    node_.push_back({angle, t.sine, t.cosine});
+  }
   const bool one_plane = phi.size() < 2;
   running_.reserve(intervals_ * planes_ + 1);
   double sum = 0;
@@ -85,9 +83,9 @@ WebSampler::Polar WebSampler::polar_for_share(const Cell& c, double share) const
   const std::vector<double>& x = web_->polar().nodes();
   const double from = x[c.interval], width = x[c.interval + 1] - from;
   const auto [a, b] = ends(c);
-  const double theta0 = from * degree, h = width * degree, sine0 = std::sin(theta0), cosine0 = std::cos(theta0);
+  const double h = width * degree, sine0 = node_[c.interval].sine, cosine0 = node_[c.interval].cosine;
   if (web_->interpolation() == Interpolation::cosine) {
-    const double cosine = cosine0 + linear_inverse(a, b, share) * (std::cos(theta0 + h) - cosine0);
+    const double cosine = cosine0 + linear_inverse(a, b, share) * (node_[c.interval + 1].cosine - cosine0);
     return {std::acos(std::clamp(cosine, -1.0, 1.0)) / degree, std::sqrt(std::max(0.0, 1 - cosine * cosine)), cosine};
   }
   if (web_->interpolation() == Interpolation::cubic) {
@@ -104,7 +102,7 @@ WebSampler::Polar WebSampler::polar_for_share(const Cell& c, double share) const
     return SineCosine{sine0 * d.cosine + cosine0 * d.sine, cosine0 * d.cosine - sine0 * d.sine};
   };
   const auto below = [&](double s, const SineCosine& t) { return a * (cosine0 - t.cosine) + rise * (t.sine - sine0 - s * t.cosine); };
-  const SineCosine end = at(h);
+  const SineCosine end{node_[c.interval + 1].sine, node_[c.interval + 1].cosine};
   const double wanted = share * below(h, end);
   double s = h * linear_inverse(a * sine0, b * std::max(0.0, end.sine), share);
   SineCosine t = at(s);
@@ -114,7 +112,7 @@ WebSampler::Polar WebSampler::polar_for_share(const Cell& c, double share) const
     const double next = std::clamp(s - (below(s, t) - wanted) / density, 0.0, h), moved = std::abs(next - s);
     s = next;
     t = at(s);
-    if (moved < 1e-9 * h) break;
+    if (moved < 1e-6 * h) break;  // the next step would be its square
   }
   return {from + s / degree, t.sine, t.cosine};
 }
@@ -140,7 +138,10 @@ WebSampler::Sample WebSampler::sample(const Vec2d& u) const {
     cd = near + t * (far - near);
   }
   const WebAngles own = web_->unfolded(polar.angle_deg, azimuth, copy);
-  return {direction_of(web_->type(), own, web_->frame()), cd / web_->flux_lm(), cd};
+  if (web_->type() != WebType::c) return {direction_of(web_->type(), own, web_->frame()), cd / web_->flux_lm(), cd};
+  const SineCosine turn = photometry::sine_cosine_deg(own.horizontal_deg + web_->frame().turn_deg);
+  const double y = polar.sine * turn.sine;
+  return {{polar.sine * turn.cosine, web_->frame().clockwise ? -y : y, -polar.cosine}, cd / web_->flux_lm(), cd};
 }
 
 Vec2d WebSampler::inverse(const Vec3d& direction) const {

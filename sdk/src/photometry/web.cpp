@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "angle.h"
 #include "etendue/intensity_web.h"
 
 namespace etendue {
@@ -77,12 +78,16 @@ Result<IntensityWeb> IntensityWeb::of(const IntensityDistribution& distribution,
     web.azimuth_ = AngleAxis(std::move(azimuths));
   }
 
+  if (grid.type == WebType::c && web.copies() > 1) web.half_deg_ = 180;
+  if (grid.symmetry == WebSymmetry::quadrant) web.quarter_deg_ = 90;
   const std::vector<double>& polar = web.polar_.nodes();
   for (const double angle : polar) web.cosine_.push_back(std::cos(angle * degree));
   if (interpolation == Interpolation::cubic) {
     web.slope_.resize(web.candela_.size());
     for (std::size_t at = 0; at < web.candela_.size(); at += polar.size()) monotone_slopes(polar, &web.candela_[at], &web.slope_[at]);
   }
+  web.usual_ = grid.type == WebType::c && interpolation == Interpolation::linear;
+  web.angles_ = polar.size();
   web.max_cd_ = *std::max_element(web.candela_.begin(), web.candela_.end());
   web.flux_lm_ = web.flux_between(0, 180);
   return web;
@@ -121,12 +126,11 @@ IntensityWeb::Folded IntensityWeb::folded(const WebAngles& own) const {
   double past = f.azimuth_deg - start;
   if (past < 0) past += 360;
   if (!(past >= 0 && past <= 360)) past -= 360 * std::floor(past / 360);
-  const bool quadrant = symmetry_ == WebSymmetry::quadrant;
-  if ((quadrant || symmetry_ == WebSymmetry::about_0_180 || symmetry_ == WebSymmetry::about_90_270) && past > 180) {
-    past = 360 - past;
-    f.copy = quadrant ? 2 : 1;
-  }
-  if (quadrant && past > 90) past = 180 - past, f.copy += 1;
+  const bool beyond_half = past > half_deg_;
+  past = beyond_half ? 360 - past : past;
+  const bool beyond_quarter = past > quarter_deg_;
+  past = beyond_quarter ? 180 - past : past;
+  f.copy = symmetry_ == WebSymmetry::quadrant ? 2 * beyond_half + beyond_quarter : beyond_half;
   f.azimuth_deg = start + past;
   return f;
 }
@@ -163,36 +167,55 @@ double IntensityWeb::profile(std::size_t plane, std::uint32_t i, double polar_de
 }
 
 double IntensityWeb::at_table(double polar_deg, double azimuth_deg) const {
-  const std::uint32_t i = polar_.interval(polar_deg);
+  const AngleAxis::Place p = polar_.place(polar_deg);
   const bool one_plane = symmetry_ == WebSymmetry::rotational;
-  const std::uint32_t j = one_plane ? 0 : azimuth_.interval(azimuth_deg);
-  double near = 0, far = 0;
-  if (interpolation_ == Interpolation::linear) {  // the usual case, without a call
-    const double t = polar_.position(i, polar_deg);
-    const double* const a = &candela_[j * polar_.nodes().size() + i];
-    near = a[0] + t * (a[1] - a[0]);
-    if (one_plane) return near;
-    const double* const b = a + polar_.nodes().size();
-    far = b[0] + t * (b[1] - b[0]);
-  } else {
-    const double cosine = interpolation_ == Interpolation::cosine ? std::cos(polar_deg * degree) : 0;
-    near = profile(j, i, polar_deg, cosine);
-    if (one_plane) return near;
-    far = profile(j + 1, i, polar_deg, cosine);
+  const AngleAxis::Place a = one_plane ? AngleAxis::Place{0, 0} : azimuth_.place(azimuth_deg);
+  const double cosine = interpolation_ == Interpolation::cosine ? std::cos(polar_deg * degree) : 0;
+  const double near = profile(a.interval, p.interval, polar_deg, cosine);
+  if (one_plane) return near;
+  const double far = profile(a.interval + 1, p.interval, polar_deg, cosine);
+  return near + a.position * (far - near);
+}
+
+// The usual web, type C and linear, without a call. Rounding may leave an azimuth at 360 or just below 0.
+inline double IntensityWeb::at_usual(double gamma_deg, double c_deg) const {
+  if (!(gamma_deg >= polar_.first() && gamma_deg <= polar_.last())) return 0;
+  const AngleAxis::Place p = polar_.place(gamma_deg);
+  if (symmetry_ == WebSymmetry::rotational) {
+    const double* const y = &candela_[p.interval];
+    return y[0] + p.position * (y[1] - y[0]);
   }
-  return near + azimuth_.position(j, azimuth_deg) * (far - near);
+  double past = c_deg - azimuth_.first();
+  past += past < 0 ? 360.0 : 0.0;
+  if (!(past >= 0 && past <= 360)) past -= 360 * std::floor(past / 360);
+  past = past > half_deg_ ? 360 - past : past;
+  past = past > quarter_deg_ ? 180 - past : past;
+  const AngleAxis::Place a = azimuth_.place(azimuth_.first() + past);
+  const double* const y = &candela_[a.interval * angles_ + p.interval];
+  const double* const z = y + angles_;
+  const double near = y[0] + p.position * (y[1] - y[0]), far = z[0] + p.position * (z[1] - z[0]);
+  return near + a.position * (far - near);
 }
 
 double IntensityWeb::at_own_angles(const WebAngles& angles) const {
+  if (usual_) return at_usual(angles.vertical_deg, angles.horizontal_deg);
   const Folded f = folded(angles);
   return f.lit ? at_table(f.polar_deg, f.azimuth_deg) : 0;
 }
 
 double IntensityWeb::at(double c_deg, double gamma_deg) const {
+  if (usual_) return at_usual(gamma_deg, (frame_.clockwise ? -c_deg : c_deg) - frame_.turn_deg);
   if (type_ == WebType::c) return at_own_angles({gamma_deg, (frame_.clockwise ? -c_deg : c_deg) - frame_.turn_deg});
   return towards(direction_of(WebType::c, {gamma_deg, c_deg}));
 }
 
-double IntensityWeb::towards(const Vec3d& direction) const { return at_own_angles(angles_of(type_, direction, frame_)); }
+double IntensityWeb::towards(const Vec3d& direction) const {
+  if (!usual_) return at_own_angles(angles_of(type_, direction, frame_));
+  const double x = direction.x, y = frame_.clockwise ? -direction.y : direction.y, square = x * x + y * y;
+  const double leg = square > 1e-290 && square < 1e290 ? std::sqrt(square) : std::hypot(x, y);
+  const double gamma = photometry::atan2_deg(leg, -direction.z);
+  if (symmetry_ == WebSymmetry::rotational) return at_usual(gamma, 0);
+  return at_usual(gamma, photometry::atan2_deg(y, x) - frame_.turn_deg);
+}
 
 }  // namespace etendue
