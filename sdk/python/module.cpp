@@ -10,4 +10,8 @@ NB_MODULE(_core, m) {
   bind_colour(m);
   bind_camera(m);
   bind_pixel(m);
+  bind_metering(m);
+  bind_colour_space(m);
+  bind_spectrum(m);
+  bind_batch(m);
 }

@@ -9,6 +9,10 @@ void bind_quantities(nanobind::module_& m);
 void bind_conversion(nanobind::module_& m);
 void bind_colour(nanobind::module_& m);
 void bind_camera(nanobind::module_& m);
+void bind_batch(nanobind::module_& m);
+void bind_spectrum(nanobind::module_& m);
+void bind_colour_space(nanobind::module_& m);
+void bind_metering(nanobind::module_& m);
 void bind_pixel(nanobind::module_& m);
 
 }  // namespace etendue::python

@@ -14,7 +14,7 @@
 Whatever cannot be answered is an etendue.Error with code, text, hint, field.
 """
 
-from . import camera, colour, pixel
+from . import batch, camera, colour, colour_space, metering, pixel, spectrum
 from .conversion import Explanation, convert, explain
 from .errors import Error
 from .quantity import Quantity, Unit, dimensions, quantity, units
@@ -57,13 +57,17 @@ __all__ = [
     "Unit",
     "Written",
     "WrittenQuantity",
+    "batch",
     "camera",
     "colour",
+    "colour_space",
     "convert",
     "dimensions",
     "explain",
+    "metering",
     "parse",
     "pixel",
     "quantity",
+    "spectrum",
     "units",
 ]

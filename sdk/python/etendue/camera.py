@@ -69,8 +69,13 @@ class Calibration:
 AnyCalibration = str | Calibration
 
 
-def _numbers_of(any_calibration: AnyCalibration) -> _Numbers:
-    return (calibration(any_calibration) if isinstance(any_calibration, str) else any_calibration)._numbers
+def calibration_of(named_or_given: AnyCalibration) -> Calibration:
+    """The calibration itself, or the one of that name."""
+    return calibration(named_or_given) if isinstance(named_or_given, str) else named_or_given
+
+
+def _numbers_of(named_or_given: AnyCalibration) -> _Numbers:
+    return calibration_of(named_or_given)._numbers
 
 
 def calibration(name: str) -> Calibration:
