@@ -78,6 +78,9 @@ TEST(ColourSpace, OutOfGamutIsSaid) {
   // The locus leaves Rec.709 at 1901 K.
   EXPECT_TRUE(to_space(*planckian(1903), rec709, {})->in_gamut);
   EXPECT_FALSE(to_space(*planckian(1899), rec709, {})->in_gamut);
+  // Its green, too, is negative below 964 K.
+  EXPECT_GT(to_space(*planckian(966), rec709, {})->rgb.y, 0);
+  EXPECT_LT(to_space(*planckian(962), rec709, {})->rgb.y, 0);
   EXPECT_TRUE(to_space({0.64, 0.33}, rec709, {})->in_gamut);  // the primary itself, but for rounding
 }
 

@@ -84,13 +84,19 @@ TEST(Spectrum, ALineIsTheCandela) {
 
 // The sum over a table of Planck's law is the chromaticity of planckian().
 TEST(Spectrum, OfABlackbodyIsPlanckian) {
-  Spectrum filament{360, 1, {}};
-  for (int i = 0; i < 471; ++i) filament.values.push_back(planck_radiance((360 + i) * 1e-9, 2856) * 1e-9);
-  const Vec3d xyz = *tristimulus(filament);
-  const double sum = xyz.x + xyz.y + xyz.z;
-  EXPECT_NEAR(xyz.x / sum, planckian(2856)->x, 1e-12);
-  EXPECT_NEAR(xyz.y / sum, planckian(2856)->y, 1e-12);
-  EXPECT_NEAR(xyz.y, *blackbody_luminance(2856), 1e-3);
+  Spectrum filament{360, 1, std::vector<double>(471)};
+  const auto heat = [&](double kelvin) {
+    for (int i = 0; i < 471; ++i) filament.values[static_cast<std::size_t>(i)] = planck_radiance((360 + i) * 1e-9, kelvin) * 1e-9;
+  };
+  for (double kelvin = 800; kelvin < 1e5; kelvin *= 1.1) {
+    heat(kelvin);
+    const Vec3d xyz = *tristimulus(filament);
+    const double sum = xyz.x + xyz.y + xyz.z;
+    EXPECT_NEAR(xyz.x / sum, planckian(kelvin)->x, 1e-12) << kelvin;
+    EXPECT_NEAR(xyz.y / sum, planckian(kelvin)->y, 1e-12) << kelvin;
+    EXPECT_NEAR(xyz.y / *blackbody_luminance(kelvin), 1, 1e-12) << kelvin;
+  }
+  heat(2856);
   EXPECT_NEAR(*efficacy(filament, visible_band), efficacy_preset("CIE A")->low_lm_W, 0.05);
 }
 

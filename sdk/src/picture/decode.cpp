@@ -1,10 +1,11 @@
 #include "etendue/picture.h"
 
+#include "etendue/srgb.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -13,9 +14,6 @@ namespace etendue {
 namespace {
 
 constexpr std::uint64_t max_side = 1u << 20;
-
-// IEC 61966-2-1.
-double srgb_to_linear(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
 // OpenImageIO chooses the reader by a file name: the one that the first bytes ask for.
 const char* name_for_reader(std::span<const std::uint8_t> bytes) {
@@ -48,7 +46,7 @@ DecodedImage spread(const std::vector<float>& values, const OIIO::ImageSpec& spe
     const float* in = values.data() + i * channels;
     for (std::size_t c = 0; c < 3; ++c) {
       const float v = in[channels < 3 ? 0 : c];
-      out.rgba[i * 4 + c] = srgb ? static_cast<float>(srgb_to_linear(v)) : v;
+      out.rgba[i * 4 + c] = srgb ? static_cast<float>(srgb_to_linear(static_cast<double>(v))) : v;
     }
     out.rgba[i * 4 + 3] = has_alpha ? in[channels == 2 ? 1 : 3] : 1.0f;
   }
