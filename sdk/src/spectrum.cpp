@@ -15,17 +15,21 @@ namespace {
 constexpr double nm = 1e-9;
 constexpr int last_nm = first_nm + wavelength_count - 1;
 
+double end_of(const Spectrum& spectrum) { return spectrum.first_nm + spectrum.step_nm * (static_cast<double>(spectrum.values.size()) - 1); }
+
 Status valid(const Spectrum& spectrum) {
-  const bool good = std::isfinite(spectrum.first_nm) && spectrum.step_nm > 0 && std::isfinite(spectrum.step_nm) &&
-                    spectrum.values.size() >= 2 &&
+  constexpr double longest_nm = 1e6;
+  const bool good = spectrum.first_nm >= 0 && spectrum.step_nm > 0 && end_of(spectrum) <= longest_nm && spectrum.values.size() >= 2 &&
                     std::all_of(spectrum.values.begin(), spectrum.values.end(), [](double v) { return v >= 0 && std::isfinite(v); });
   if (good) return Done{};
-  return Error{"SPECTRUM_INVALID",
-               fmt::format("expected two values or more, finite and from 0 upwards, at positive steps, found {} at steps of {} nm",
-                           spectrum.values.size(), spectrum.step_nm),
-               {},
-               {},
-               {}};
+  return Error{
+      "SPECTRUM_INVALID",
+      fmt::format("expected two values or more, finite and from 0 upwards, at positive steps between 0 nm and 1 mm, found {} from {} nm at "
+                  "steps of {} nm",
+                  spectrum.values.size(), spectrum.first_nm, spectrum.step_nm),
+      {},
+      {},
+      {}};
 }
 
 Status valid(const Band& band) {
@@ -60,7 +64,9 @@ double at(const Spectrum& spectrum, double wavelength_nm) {
 template <class F>
 double summed(double low_nm, double high_nm, F f) {
   double sum = 0;
-  for (double wavelength_nm = std::ceil(low_nm); wavelength_nm <= high_nm; ++wavelength_nm) sum += f(wavelength_nm);
+  if (!(low_nm <= high_nm)) return sum;
+  const auto last = static_cast<int>(std::floor(high_nm));
+  for (auto wavelength_nm = static_cast<int>(std::ceil(low_nm)); wavelength_nm <= last; ++wavelength_nm) sum += f(wavelength_nm);
   return sum;
 }
 double v_lambda(double wavelength_nm) {
@@ -80,8 +86,7 @@ Result<Vec3d> tristimulus(const Spectrum& spectrum) {
 Result<double> efficacy(const Spectrum& spectrum, const Band& band) {
   if (const Status checked = valid(spectrum); !checked) return checked.error();
   if (const Status checked = valid(band); !checked) return checked.error();
-  const double end_nm = spectrum.first_nm + spectrum.step_nm * static_cast<double>(spectrum.values.size() - 1);
-  const double low = std::max(band.first_nm, spectrum.first_nm), high = std::min(band.last_nm, end_nm);
+  const double low = std::max(band.first_nm, spectrum.first_nm), high = std::min(band.last_nm, end_of(spectrum));
   const double radiant = summed(low, high, [&](double l) { return at(spectrum, l); });
   if (!(radiant > 0)) return Error{"EFFICACY_UNDEFINED", "expected a spectrum with radiation within the band, found none", {}, {}, {}};
   return k_m_lm_W * summed(low, high, [&](double l) { return v_lambda(l) * at(spectrum, l); }) / radiant;

@@ -101,13 +101,21 @@ TEST(Spectrum, OfABlackbodyIsPlanckian) {
 }
 
 TEST(Spectrum, BadInput) {
-  for (const Spectrum& bad :
-       {Spectrum{360, 0, {1, 1}}, {360, 1, {}}, {360, 1, {1}}, {360, 1, {1, -1}}, {360, 1, {1, std::nan("")}}, {HUGE_VAL, 1, {1, 1}}}) {
+  for (const Spectrum& bad : {Spectrum{360, 0, {1, 1}},
+                              {360, 1, {}},
+                              {360, 1, {1}},
+                              {360, 1, {1, -1}},
+                              {360, 1, {1, std::nan("")}},
+                              {HUGE_VAL, 1, {1, 1}},
+                              {-1, 1, {1, 1}},
+                              {360, 1e9, {1, 1}}}) {
     EXPECT_EQ(tristimulus(bad).error().code, "SPECTRUM_INVALID");
     EXPECT_EQ(efficacy(bad, visible_band).error().code, "SPECTRUM_INVALID");
   }
   EXPECT_EQ(efficacy({360, 1, {0, 0}}, visible_band).error().code, "EFFICACY_UNDEFINED");
   EXPECT_EQ(efficacy(equal_energy(), {900, 1000}).error().code, "EFFICACY_UNDEFINED");
+  EXPECT_EQ(efficacy(equal_energy(), {1e300, 1e301}).error().code, "EFFICACY_UNDEFINED");
+  EXPECT_EQ(blackbody_efficacy(3000, {1e300, 1e301}).error().code, "EFFICACY_UNDEFINED");
   EXPECT_EQ(efficacy(equal_energy(), {700, 400}).error().code, "BAND_INVALID");
   for (const double kelvin : {0.0, -100.0, 99.0, 1e6, std::nan("")}) {
     EXPECT_EQ(blackbody_luminance(kelvin).error().code, "TEMPERATURE_OUT_OF_RANGE");

@@ -22,7 +22,7 @@ struct Spectrum {
   double first_nm = 360, step_nm = 1;
   std::vector<double> values;
 };
-// All of these: SPECTRUM_INVALID unless the step is positive and the values are finite, none negative, two at least.
+// All of these: SPECTRUM_INVALID unless there are two values or more, finite, none negative, at positive steps within 0 nm to 1 mm.
 // K_m times the sums over the colour-matching functions: Y is the photometric twin of the spectrum's quantity (cd/m2 of W/m2/sr/nm).
 Result<Vec3d> tristimulus(const Spectrum& spectrum);
 

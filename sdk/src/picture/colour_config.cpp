@@ -138,20 +138,26 @@ Result<ColourConfig> ColourConfig::from_environment() {
   return file != nullptr && *file != '\0' ? from_file(file) : built_in();
 }
 
-std::vector<std::string> ColourConfig::spaces() const {
-  std::vector<std::string> names;
-  for (int i = 0; i < made_->config->getNumColorSpaces(); ++i) names.emplace_back(made_->config->getColorSpaceNameByIndex(i));
+namespace {
+
+// The names that a numbered question gives.
+template <class Name>
+std::vector<std::string> names_of(int count, Name name) {
+  std::vector<std::string> names(static_cast<std::size_t>(std::max(count, 0)));
+  for (int i = 0; i < count; ++i) names[static_cast<std::size_t>(i)] = name(i);
   return names;
+}
+
+}  // namespace
+
+std::vector<std::string> ColourConfig::spaces() const {
+  return names_of(made_->config->getNumColorSpaces(), [&](int i) { return made_->config->getColorSpaceNameByIndex(i); });
 }
 std::vector<std::string> ColourConfig::displays() const {
-  std::vector<std::string> names;
-  for (int i = 0; i < made_->config->getNumDisplays(); ++i) names.emplace_back(made_->config->getDisplay(i));
-  return names;
+  return names_of(made_->config->getNumDisplays(), [&](int i) { return made_->config->getDisplay(i); });
 }
 std::vector<std::string> ColourConfig::views(const std::string& display) const {
-  std::vector<std::string> names;
-  for (int i = 0; i < made_->config->getNumViews(display.c_str()); ++i) names.emplace_back(made_->config->getView(display.c_str(), i));
-  return names;
+  return names_of(made_->config->getNumViews(display.c_str()), [&](int i) { return made_->config->getView(display.c_str(), i); });
 }
 
 namespace {
@@ -159,8 +165,8 @@ namespace {
 // Whether a name is among those there are.
 Status known(const char* what, const std::string& name, const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), name) != names.end()) return Done{};
-  std::vector<Candidate> candidates;
-  for (const std::string& other : names) candidates.push_back({other, other});
+  std::vector<Candidate> candidates(names.size());
+  std::transform(names.begin(), names.end(), candidates.begin(), [](const std::string& other) { return Candidate{other, other}; });
   return Error{"COLOUR_NAME_UNKNOWN",
                fmt::format("\"{}\" is no {} of this configuration", name, what),
                {},
