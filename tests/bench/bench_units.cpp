@@ -6,5 +6,6 @@ int main(int argc, char** argv) {
   etendue::bench::exposure_rows(bench);
   etendue::bench::colour_rows(bench);
   etendue::bench::pixel_rows(bench);
+  etendue::bench::text_rows(bench);
   return bench.run(argc, argv);
 }

@@ -14,6 +14,7 @@ inline constexpr std::size_t batch_size = 4096;  // 16 KiB of floats
 void exposure_rows(Bench& bench);
 void colour_rows(Bench& bench);
 void pixel_rows(Bench& bench);
+void text_rows(Bench& bench);
 
 // Every task's first row: out = in x factor, which no conversion can be faster than, compiled for this machine (native.cpp).
 void bare_multiply(std::span<const float> in, float factor, std::span<float> out);
