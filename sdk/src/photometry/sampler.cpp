@@ -82,7 +82,8 @@ double WebSampler::share_below(const Cell& c, double polar_deg) const {
 WebSampler::Polar WebSampler::polar_for_share(const Cell& c, double share) const {
   const std::vector<double>& x = web_->polar().nodes();
   const double from = x[c.interval], width = x[c.interval + 1] - from;
-  const auto [a, b] = ends(c);
+  const std::array<double, 2> sides = ends(c);
+  const double a = sides[0], b = sides[1];
   const double h = width * degree, sine0 = node_[c.interval].sine, cosine0 = node_[c.interval].cosine;
   if (web_->interpolation() == Interpolation::cosine) {
     const double cosine = cosine0 + linear_inverse(a, b, share) * (node_[c.interval + 1].cosine - cosine0);
