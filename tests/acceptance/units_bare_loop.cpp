@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   const double factor = std::atof(argv[1]);
   const std::string tail = std::string(",") + argv[2] + ",\n";
   constexpr std::size_t block = 1 << 20;
-  std::vector<char> in(block + 4096), out(2 * block);
+  std::vector<char> in(block + 4096), out(8 * (block + 4096));  // the shortest line, "1,lm\n", may become 32 characters
   std::size_t kept = 0;
   for (bool first = true;;) {
     const std::size_t got = std::fread(in.data() + kept, 1, block, stdin);
