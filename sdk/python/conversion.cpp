@@ -5,6 +5,7 @@
 #include "etendue/unit_names.h"
 #include "module.h"
 #include "settings.h"
+#include "shapes.h"
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -20,53 +21,12 @@
 namespace etendue::python {
 namespace {
 
-template <class E, std::size_t N>
-E named(std::string_view name, const std::array<std::pair<std::string_view, E>, N>& names) {
-  for (const auto& [known, value] : names)
-    if (known == name) return value;
-  std::string hint = "one of:";
-  for (const auto& [known, value] : names) hint += " " + std::string(known);
-  raise({"NAME_UNKNOWN", "\"" + std::string(name) + "\" is not known here", {}, hint, {}});
-}
-
-constexpr std::array<std::pair<std::string_view, Caps>, 3> caps{{{"round", Caps::round}, {"flat", Caps::flat}, {"none", Caps::none}}};
 constexpr std::array<std::pair<std::string_view, FluxConvention>, 4> spot_fluxes{{{"falloff", FluxConvention::falloff},
                                                                                   {"cone", FluxConvention::cone},
                                                                                   {"frostbite_pi", FluxConvention::frostbite_pi},
                                                                                   {"isotropic", FluxConvention::isotropic}}};
 constexpr std::array<std::pair<std::string_view, SpotFalloff>, 3> spot_falloffs{
     {{"hard", SpotFalloff::hard}, {"squared", SpotFalloff::squared}, {"smoothstep", SpotFalloff::smoothstep}}};
-
-// The name of a shape, its numbers in SI, and of tubes their caps.
-using ShapeNumbers = std::tuple<std::string_view, std::vector<double>, std::string_view>;
-
-void set_shape(const ShapeNumbers& given, LightSetup& setup) {
-  const auto& [name, x, cap] = given;
-  const auto at = [&x](std::size_t i) { return i < x.size() ? x[i] : 0; };
-  if (name == "point") setup.shape = PointShape{};
-  if (name == "spot") setup.shape = SpotShape{at(0), at(1)};
-  if (name == "frustum") setup.shape = FrustumShape{at(0), at(1)};
-  if (name == "distant") setup.shape = DistantShape{at(0)};
-  if (name == "sphere") setup.shape = SphereShape{at(0)};
-  if (name == "disk") setup.shape = DiskShape{at(0)};
-  if (name == "rect") setup.shape = RectShape{at(0), at(1)};
-  if (name == "tube") setup.shape = TubeShape{at(0), at(1), named(cap, caps)};
-  if (name == "line") setup.shape = LineShape{at(0)};
-  if (name == "environment") setup.shape = EnvironmentShape{};
-  if (name == "polygon") {
-    PolygonShape polygon;
-    for (std::size_t i = 0; i + 1 < x.size(); i += 2) polygon.points.push_back({x[i], x[i + 1]});
-    setup.shape = polygon;
-  }
-  if (name == "mesh") {
-    setup.shape = MeshShape{};
-    setup.mesh_area_m2 = at(0);
-  }
-  if (name == "photometric") {
-    setup.shape = PhotometricShape{};
-    setup.photometric_sr = at(0);
-  }
-}
 
 using ExplanationParts =
     std::tuple<std::string, std::vector<std::tuple<std::string, double, std::string_view>>, std::vector<std::string>, std::string>;
@@ -86,7 +46,9 @@ void bind_conversion(nb::module_& m) {
          std::optional<double> given_distance_m, std::optional<double> wanted_distance_m, std::optional<double> efficacy_lm_W,
          double meter_k, double meter_c) {
         LightSetup setup;
-        if (shape) set_shape(*shape, setup);
+        if (shape) setup.shape = shape_of(*shape);
+        if (setup.shape && std::holds_alternative<MeshShape>(*setup.shape)) setup.mesh_area_m2 = size_of(*shape);
+        if (setup.shape && std::holds_alternative<PhotometricShape>(*setup.shape)) setup.photometric_sr = size_of(*shape);
         setup.conventions = {two_sided, named(spot_flux, spot_fluxes), named(spot_falloff, spot_falloffs)};
         setup.given_distance_m = given_distance_m;
         setup.wanted_distance_m = wanted_distance_m;
