@@ -14,4 +14,5 @@ NB_MODULE(_core, m) {
   bind_colour_space(m);
   bind_spectrum(m);
   bind_batch(m);
+  bind_dialect(m);
 }

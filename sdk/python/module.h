@@ -13,6 +13,7 @@ void bind_batch(nanobind::module_& m);
 void bind_spectrum(nanobind::module_& m);
 void bind_colour_space(nanobind::module_& m);
 void bind_metering(nanobind::module_& m);
+void bind_dialect(nanobind::module_& m);
 void bind_pixel(nanobind::module_& m);
 
 }  // namespace etendue::python

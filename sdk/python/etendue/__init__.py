@@ -14,7 +14,7 @@
 Whatever cannot be answered is an etendue.Error with code, text, hint, field.
 """
 
-from . import batch, camera, colour, colour_space, metering, pixel, spectrum
+from . import batch, camera, colour, colour_space, dialect, metering, pixel, spectrum
 from .conversion import Explanation, convert, explain
 from .errors import Error
 from .quantity import Quantity, Unit, dimensions, quantity, units
@@ -62,6 +62,7 @@ __all__ = [
     "colour",
     "colour_space",
     "convert",
+    "dialect",
     "dimensions",
     "explain",
     "metering",

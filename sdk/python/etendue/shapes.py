@@ -160,3 +160,34 @@ class Environment:
 
 
 Shape = Point | Spot | Frustum | Distant | Sphere | Disk | Rect | Polygon | Tube | Line | Mesh | Photometric | Environment
+
+
+def shape_of_numbers(name: str, numbers: Sequence[float], caps: str) -> Shape:
+    """The shape of that name, from numbers in SI."""
+    angles = [Quantity(x, "angle") for x in numbers]
+    match name:
+        case "spot":
+            return Spot(angles[0], angles[1])
+        case "frustum":
+            return Frustum(angles[0], angles[1])
+        case "distant":
+            return Distant(angles[0])
+        case "sphere":
+            return Sphere(numbers[0])
+        case "disk":
+            return Disk(numbers[0])
+        case "rect":
+            return Rect(numbers[0], numbers[1])
+        case "tube":
+            return Tube(numbers[0], numbers[1], caps)
+        case "line":
+            return Line(numbers[0])
+        case "polygon":
+            return Polygon(list(zip(numbers[::2], numbers[1::2], strict=True)))
+        case "mesh":
+            return Mesh(numbers[0])
+        case "photometric":
+            return Photometric(Quantity(numbers[0], "solid angle"))
+        case "environment":
+            return Environment()
+    return Point()
