@@ -40,7 +40,8 @@ class Loss(NamedTuple):
 class Form:
     """How an amount is meant, besides its number.
 
-    unit: one of units_of(); "" is the first of these. exposure_stop and normalize are USD's. reflector: HDRP's, and Filament's FOCUSED_SPOT.
+    unit: one of units_of(); "" is the first of these. exposure_stop and normalize are USD's. reflector: HDRP's,
+    and Filament's FOCUSED_SPOT.
     metres_per_unit: required of USD, but for distant and dome lights. efficacy: in lm/W, required of Blender's watts.
     """
 
@@ -58,7 +59,10 @@ class Form:
 
 @dataclasses.dataclass(frozen=True)
 class StatedLight:
-    """A light in a program's own terms. Numbers for lengths are in its own unit, colours as they are multiplied in; range: where it ends."""
+    """A light in a program's own terms.
+
+    Numbers for lengths are in its own unit; colour is what it multiplies by; range: where its light ends.
+    """
 
     shape: Shape
     amount: float
