@@ -23,8 +23,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::vector<double> ratios(double low, double high, int count) {
-  std::vector<double> all;
-  for (int i = 0; i < count; ++i) all.push_back(std::clamp(low * std::pow(high / low, i / (count - 1.0)), low, high));
+  std::vector<double> all(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) all[static_cast<std::size_t>(i)] = std::clamp(low * std::pow(high / low, i / (count - 1.0)), low, high);
   return all;
 }
 Json point(double x, double y) { return Json::array({x, y}); }
@@ -51,7 +51,8 @@ Json falloff(double radius) {
 // Luminance that becomes a pixel value of 1, and the one that the meter aims at, over EV100.
 Json exposure() {
   Json curves;
-  for (double ev = -6; ev <= 18; ev += 0.25) {
+  for (int quarter = -24; quarter <= 72; ++quarter) {
+    const double ev = quarter * 0.25;
     for (const char* name : {"frostbite", "unreal", "iso_sos"})
       curves[fmt::format("pixel value 1, {}", name)].push_back(point(ev, saturation_of_ev100(ev, *calibration(name))));
     curves["the meter's luminance, K = 12.5"].push_back(point(ev, luminance_of_ev100(ev, *calibration("frostbite"))));

@@ -17,16 +17,17 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // 800 K to 100000 K in equal ratios, and infinity.
 std::vector<float> temperatures() {
-  std::vector<float> kelvin;
-  for (int i = 0; i <= 3000; ++i) kelvin.push_back(std::clamp(static_cast<float>(800 * std::pow(125, i / 3000.0)), 800.0f, 1e5f));
+  std::vector<float> kelvin(3001);
+  for (std::size_t i = 0; i < kelvin.size(); ++i)
+    kelvin[i] = std::clamp(static_cast<float>(800 * std::pow(125, static_cast<double>(i) / 3000)), 800.0f, 1e5f);
   kelvin.push_back(infinity);
   return kelvin;
 }
 
 TEST(BatchPlanckian, XyIsThatOfTheDouble) {
   const std::vector<float> kelvin = temperatures();
-  std::vector<Chromaticity> exact;
-  for (const float t : kelvin) exact.push_back(*planckian(t));
+  std::vector<Chromaticity> exact(kelvin.size());
+  std::transform(kelvin.begin(), kelvin.end(), exact.begin(), [](float t) { return *planckian(t); });
   std::vector<Vec2f> xy(kelvin.size());
   on_each_instruction_set([&] {
     const BatchOutcome done = planckian(kelvin, xy, {});
@@ -40,8 +41,8 @@ TEST(BatchPlanckian, XyIsThatOfTheDouble) {
 
 TEST(BatchPlanckian, RgbIsThatOfTheDouble) {
   const std::vector<float> kelvin = temperatures();
-  std::vector<Rgb> exact;
-  for (const float t : kelvin) exact.push_back(to_rgb(*planckian(t)));
+  std::vector<Rgb> exact(kelvin.size());
+  std::transform(kelvin.begin(), kelvin.end(), exact.begin(), [](float t) { return to_rgb(*planckian(t)); });
   std::vector<Vec3f> rgb(kelvin.size());
   on_each_instruction_set([&] {
     const BatchOutcome done = planckian_rgb(kelvin, rgb, {});

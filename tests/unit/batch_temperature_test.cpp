@@ -32,8 +32,8 @@ struct Errors {
   double kelvin = 0, relative = 0, duv = 0;
 };
 Errors errors_of(const std::vector<Case>& all) {
-  std::vector<Chromaticity> xy;
-  for (const Case& c : all) xy.push_back(c.xy);
+  std::vector<Chromaticity> xy(all.size());
+  std::transform(all.begin(), all.end(), xy.begin(), [](const Case& c) { return c.xy; });
   std::vector<ColourTemperature> found(all.size());
   const BatchOutcome done = to_colour_temperature(xy, found, {});
   EXPECT_TRUE(done.ok());
@@ -66,8 +66,8 @@ TEST(BatchTemperature, HasOneWhereTheDoubleHasOne) {
                                   {1e300, 1e300}, {1.5, 0},    {0.3127, 0.3290}};
   for (int i = -20; i <= 100; ++i)
     for (int j = -20; j <= 100; ++j) xy.push_back({i / 83.0, j / 83.0});
-  std::vector<std::uint8_t> has;
-  for (const Chromaticity& c : xy) has.push_back(to_colour_temperature(c).ok());
+  std::vector<std::uint8_t> has(xy.size());
+  std::transform(xy.begin(), xy.end(), has.begin(), [](const Chromaticity& c) { return to_colour_temperature(c).ok() ? 1 : 0; });
   const auto without = static_cast<std::size_t>(std::count(has.begin(), has.end(), 0));
   std::vector<ColourTemperature> found(xy.size());
   on_each_instruction_set([&] {
@@ -80,8 +80,10 @@ TEST(BatchTemperature, HasOneWhereTheDoubleHasOne) {
 
 TEST(BatchTemperature, FitIsAThirdOfAPercent) {
   const std::vector<Case> all = cases(1000, 40000, 0.02);
-  std::vector<Vec2f> xy;
-  for (const Case& c : all) xy.push_back({static_cast<float>(c.xy.x), static_cast<float>(c.xy.y)});
+  std::vector<Vec2f> xy(all.size());
+  std::transform(all.begin(), all.end(), xy.begin(), [](const Case& c) {
+    return Vec2f{static_cast<float>(c.xy.x), static_cast<float>(c.xy.y)};
+  });
   std::vector<float> kelvin(xy.size());
   on_each_instruction_set([&] {
     const BatchOutcome done = fit_colour_temperature(xy, kelvin, 0);

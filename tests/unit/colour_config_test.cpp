@@ -48,8 +48,8 @@ TEST(ColourConfig, HasWhatItSays) {
 // OpenColorIO's curve is smooth where the standard's is rounded: 2.5e-4 of values in the straight part, 1e-5 at most. Why textures are not
 // decoded by it (decision 0010).
 TEST(ColourConfig, SrgbCurveIsNotQuiteTheStandards) {
-  std::vector<Vec3f> codes;
-  for (int i = 0; i < 256; ++i) codes.push_back({static_cast<float>(i) / 255, 0, 0});
+  std::vector<Vec3f> codes(256);
+  for (std::size_t i = 0; i < codes.size(); ++i) codes[i].x = static_cast<float>(i) / 255;
   std::vector<Vec3f> linear = codes;
   config().conversion("sRGB texture", "linear Rec.709")->apply(linear);
   double worst = 0, worst_relative = 0;

@@ -45,7 +45,8 @@ TEST(Blackbody, MostEfficientAt6628K) {
 TEST(Planck, IntegratesToStefanBoltzmann) {
   for (const double kelvin : {300.0, 2856.0, 5772.0}) {
     double sum = 0, previous = planck_radiance(1e-9, kelvin), at_peak = 0, peak = 0;
-    for (double l = 1e-9; l < 1e-3; l *= 1.001) {
+    for (int step = 0; step < 13823; ++step) {
+      const double l = 1e-9 * std::pow(1.001, step);
       const double next = planck_radiance(l * 1.001, kelvin);
       sum += (previous + next) / 2 * l * 0.001;
       if (next > at_peak) at_peak = next, peak = l * 1.001;
@@ -88,7 +89,8 @@ TEST(Spectrum, OfABlackbodyIsPlanckian) {
   const auto heat = [&](double kelvin) {
     for (int i = 0; i < 471; ++i) filament.values[static_cast<std::size_t>(i)] = planck_radiance((360 + i) * 1e-9, kelvin) * 1e-9;
   };
-  for (double kelvin = 800; kelvin < 1e5; kelvin *= 1.1) {
+  for (int step = 0; step <= 50; ++step) {
+    const double kelvin = 800 * std::pow(1.1, step);
     heat(kelvin);
     const Vec3d xyz = *tristimulus(filament);
     const double sum = xyz.x + xyz.y + xyz.z;
