@@ -5,6 +5,7 @@
 
 #include "etendue/photometric_transform.h"
 #include "exporters/photometry/lines.h"
+#include "exporters/photometry/scene.h"
 
 namespace etendue {
 namespace {
@@ -193,5 +194,21 @@ Result<PhotometricText> write_eulumdat(const IntensityDistribution& distribution
   out.text = text_of(*d);
   return out;
 }
+
+namespace {
+
+class EulumdatExporter final : public Exporter {
+ public:
+  FormatInfo describe() const override {
+    return {"eulumdat", "EULUMDAT", {".ldt"}, "Luminous intensity of one luminaire over direction per 1000 lm of its lamps"};
+  }
+  Result<Exported> write(const Scene& scene, const std::filesystem::path& file, const ExportOptions&) const override {
+    return photometric::write_scene(scene, file, &write_eulumdat);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Exporter> make_eulumdat_exporter() { return std::make_unique<EulumdatExporter>(); }
 
 }  // namespace etendue

@@ -6,6 +6,7 @@
 
 #include "etendue/photometric_transform.h"
 #include "exporters/photometry/lines.h"
+#include "exporters/photometry/scene.h"
 
 namespace etendue {
 namespace {
@@ -238,5 +239,21 @@ Result<PhotometricText> write_ies(const IntensityDistribution& distribution, con
   out.text = text_of(ies, *grid);
   return out;
 }
+
+namespace {
+
+class IesExporter final : public Exporter {
+ public:
+  FormatInfo describe() const override {
+    return {"ies", "IES LM-63", {".ies"}, "Luminous intensity of one luminaire over direction, LM-63-2002 or the version it came in"};
+  }
+  Result<Exported> write(const Scene& scene, const std::filesystem::path& file, const ExportOptions&) const override {
+    return photometric::write_scene(scene, file, &write_ies);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Exporter> make_ies_exporter() { return std::make_unique<IesExporter>(); }
 
 }  // namespace etendue

@@ -8,6 +8,8 @@
 #include <csignal>
 #include <cstdio>
 
+#include "exporters/eulumdat/eulumdat.h"
+#include "exporters/ies/ies.h"
 #include "exporters/mitsuba/mitsuba.h"
 #include "exporters/rig/rig.h"
 #include "importers/eulumdat/eulumdat.h"
@@ -136,6 +138,8 @@ const Registry& registry() {
     formats->add(make_rig_importer(*formats));
     formats->add(make_rig_exporter());
     formats->add(make_mitsuba_exporter());
+    formats->add(make_ies_exporter());
+    formats->add(make_eulumdat_exporter());
     return formats;
   }();
   return *built_in;
