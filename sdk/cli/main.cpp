@@ -13,6 +13,17 @@ void add_common(CLI::App& verb, etendue::cli::Common& common) {
   verb.add_flag("-v,--verbose", common.verbose, "Notes as well");
 }
 
+// In CLI11's order, last first. A minus before a digit belongs to a quantity ("-3 EV"), which a blank before it says.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  for (int i = argc - 1; i > 0; --i) {
+    const std::string_view text = argv[i];
+    const bool negative = text.size() > 1 && text[0] == '-' && ((text[1] >= '0' && text[1] <= '9') || text[1] == '.');
+    arguments.push_back((negative ? " " : "") + std::string(text));
+  }
+  return arguments;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -28,6 +39,7 @@ int main(int argc, char** argv) {
       "  etendue info room.glb\n"
       "  etendue convert kitchen.rig.json kitchen.xml\n"
       "  etendue validate kitchen.rig.json --out report\n"
+      "  etendue units 1500lm --shape sphere --radius 15cm --to nit\n"
       "\n`etendue VERB --help` says more. Exit status: 0 done, 1 the input is bad or a check failed, 2 wrong usage,\n"
       "3 something outside is missing or failed, 4 undecided, 130 cancelled.");
   app.get_formatter()->column_width(34);
@@ -40,11 +52,12 @@ int main(int argc, char** argv) {
   add_compare(app, common, run);
   add_validate(app, common, run);
   add_ies(app, common, run);
+  add_units(app, common, run);
   for (CLI::App* const verb : app.get_subcommands({})) add_common(*verb, common);
   add_completion(app, run);
 
   try {
-    app.parse(argc, argv);
+    app.parse(arguments_of(argc, argv));
   } catch (const CLI::Success& asked_for_text) {  // --help, --version
     return app.exit(asked_for_text);
   } catch (const CLI::ParseError& error) {

@@ -16,6 +16,7 @@ void add_render(CLI::App& app, const Common& common, Run& run);
 void add_compare(CLI::App& app, const Common& common, Run& run);
 void add_validate(CLI::App& app, const Common& common, Run& run);
 void add_ies(CLI::App& app, const Common& common, Run& run);
+void add_units(CLI::App& app, const Common& common, Run& run);
 void add_completion(CLI::App& app, Run& run);
 
 }  // namespace etendue::cli

@@ -142,8 +142,14 @@ class Explainer {
     std::string result = text;
     const std::string below = factor(from, setup_.given_distance_m, "given_distance");
     const std::string above = factor(to, setup_.wanted_distance_m, "distance");
-    if (below != "1") result += "/" + in_brackets(below);
-    if (above != "1") result += "*" + in_brackets(above);
+    if (below.starts_with("1/"))
+      result += "*" + below.substr(2);
+    else if (below != "1")
+      result += "/" + in_brackets(below);
+    if (above.starts_with("1/"))
+      result += above.substr(1);
+    else if (above != "1")
+      result += "*" + in_brackets(above);
     return result;
   }
   std::string factor(Dimension quantity, std::optional<double> distance_m, const char* distance_name) {

@@ -4,7 +4,7 @@ how it must end stand in tests/golden/cli/NAME.txt.
 
     tests/cli/run.py [--etendue PATH] [--update] [NAME ...]
 
-In a case: `$T` is a fresh folder, `$D` is tests/cli/data. In the output, both and times are replaced by their names. Numbers in full precision
+In a case: `$T` is a fresh folder, `$D` is tests/cli/data; `< FILE` at the end of a line is its stdin. In the output, both and times are replaced by their names. Numbers in full precision
 (15 digits and more) may differ by 64 units in the last place of a double: exp, log and pow round differently with and without fused multiply-add.
 """
 import argparse
@@ -31,7 +31,10 @@ def run_case(case, etendue):
             words = shlex.split(line)
             for name, value in names.items():
                 words = [word.replace(name, value) for word in words]
-            run = subprocess.run([etendue] + words, capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)
+            stdin = subprocess.DEVNULL
+            if len(words) > 2 and words[-2] == "<":
+                stdin, words = open(words[-1]), words[:-2]
+            run = subprocess.run([etendue] + words, capture_output=True, text=True, timeout=120, stdin=stdin)
             report.append("$ etendue %s\n%s%s[exit %d]\n" % (line, run.stdout, "".join("! " + e + "\n" for e in run.stderr.splitlines()), run.returncode))
         text = "\n".join(report)
         for name, value in names.items():

@@ -1,0 +1,51 @@
+// What the verb `units` was asked for, and its parts.
+#pragma once
+
+#include <map>
+
+#include "etendue/formulas.h"
+#include "etendue/quantity_text.h"
+#include "etendue/unit_names.h"
+#include "session.h"
+
+namespace etendue::cli {
+
+struct UnitsOptions {
+  std::vector<std::string> quantities;
+  std::string to, shape, distance, efficacy, spot_flux, spot_falloff, meter, normalise, table, dialect;
+  std::map<std::string, std::string> sizes;  // "radius" -> "15 cm": those that a shape takes
+  bool two_sided = false, explain = false, list = false, jsonl = false;
+};
+// The names that `sizes` may hold, each an option: "--radius".
+std::span<const std::string_view> size_names();
+
+// What the options say about the light. Errors: SHAPE_UNKNOWN, SIZE_MISSING, ANGLE_MISSING, OPTION_UNUSED (a size that the shape does not
+// have), and those of parse_si().
+Result<LightSetup> setup_of(const UnitsOptions& options);
+
+// What --to asks for: a unit, or a colour.
+struct Target {
+  enum class Kind { unit, rgb, xy, cct } kind = Kind::unit;
+  std::string name;
+  NamedUnit unit{};
+};
+// UNIT_UNKNOWN, with the nearest.
+Result<Target> target_named(const std::string& name);
+
+struct Answer {
+  std::vector<double> value;  // three for rgb, two for xy
+  std::string unit, text;
+  std::optional<bool> in_gamut;            // rgb
+  std::optional<double> duv;               // cct
+  std::optional<double> efficacy_lm_W;     // that the value depends on
+  std::optional<Explanation> explanation;  // with `explain`
+};
+Result<Answer> answer(const Written& given, const Target& target, const LightSetup& setup, const UnitsOptions& options);
+// In every unit that can be known from what was given.
+std::vector<Answer> every_answer(const Written& given, const LightSetup& setup, const UnitsOptions& options);
+
+// --list and --table NAME, as lines and as JSON.
+void list_units(Session& session);
+Status print_table(Session& session, const std::string& name);
+
+}  // namespace etendue::cli

@@ -1,0 +1,43 @@
+// Rows of quantities, converted one by one at the pace of reading and printing them.
+#pragma once
+
+#include <array>
+#include <cstdio>
+
+#include "etendue/unit_names.h"
+#include "units.h"
+
+namespace etendue::cli {
+
+// CSV: "1200,lm" (or "1200 lm", "15 klx @ 2 m") in, "value,unit,error" out. JSON lines: {"value": 1200, "unit": "lm"} or a text such as
+// "15 klx @ 2 m" in; {"value": .., "unit": ".."} or {"error": {"code": .., "text": ..}} out.
+class RowConverter {
+ public:
+  RowConverter(Target target, LightSetup setup, const UnitsOptions& options);
+
+  // One line, without its end; appends one.
+  void csv(std::string_view line, std::string& out);
+  void json(std::string_view line, std::string& out);
+
+  std::size_t rows = 0, refused = 0;
+
+ private:
+  // The value in the target's unit, by the shortest way; nothing where the long way has to be gone.
+  std::optional<double> quickly(double value, std::string_view unit);
+  const NamedUnit* unit_of(std::string_view spelling);
+  Result<Answer> slowly(std::string_view text) const;
+
+  Target target_;
+  LightSetup setup_;
+  const UnitsOptions& options_;
+  // Conversions by the dimension of what is given, made when first met.
+  std::array<std::optional<Conversion>, 18> conversions_;
+  std::array<bool, 18> tried_{};
+  std::string last_spelling_;
+  const NamedUnit* last_unit_ = nullptr;
+};
+
+// All of `in` to `out`, whole blocks at a time. Errors: LINE_TOO_LONG (1 MiB), FILE_UNREADABLE, FILE_UNWRITABLE, CANCELLED.
+Status convert_rows(RowConverter& rows, bool json_lines, std::FILE* in, std::FILE* out);
+
+}  // namespace etendue::cli
