@@ -72,7 +72,7 @@ int run_units(const Common& common, const UnitsOptions& options) {
   const Result<LightSetup> setup = setup_of(options);
   if (!setup) return session.fail(setup.error());
   std::optional<Target> target;
-  if (!options.to.empty()) {
+  if (!options.to.empty() && options.dialect.empty()) {
     const Result<Target> named = target_named(options.to);
     if (!named) return session.fail(named.error());
     target = *named;
@@ -91,7 +91,8 @@ int run_units(const Common& common, const UnitsOptions& options) {
   Json results = Json::array();
   int status = exit_done;
   for (const std::string& text : options.quantities) {
-    const Status answered = answer_one(session, text, target, *setup, options, results);
+    const Status answered = options.dialect.empty() ? answer_one(session, text, target, *setup, options, results)
+                                                    : state_in_dialect(session, text, *setup, options, results);
     if (answered) continue;
     session.diagnostics.add(to_diagnostic(answered.error()));
     results.push_back({{"error", {{"code", answered.error().code}, {"text", answered.error().text}}}});
@@ -123,6 +124,9 @@ void add_units(CLI::App& app, const Common& common, Run& run) {
       ->check(CLI::IsMember({"squared", "smoothstep", "hard"}));
   verb->add_option("--meter", options->meter, "Constants of the light meter behind EV: K=12.5,C=250");
   verb->add_option("--normalise", options->normalise, "max: the largest channel of rgb is 1, instead of Y")->check(CLI::IsMember({"max"}));
+  verb->add_option("--dialect", options->dialect,
+                   "What another program calls this light: blender, usd, hdrp, unreal, ...; --to is its unit");
+  verb->add_option("--metres-per-unit", options->metres_per_unit, "Of the stage, for --dialect usd")->check(CLI::PositiveNumber);
   verb->add_flag("--explain", options->explain, "The formula, its symbols, its convention and its source");
   verb->add_flag("--jsonl", options->jsonl, "Rows from stdin are JSON lines instead of CSV");
   verb->add_flag("--list", options->list, "Every unit");
@@ -134,6 +138,7 @@ void add_units(CLI::App& app, const Common& common, Run& run) {
       "  etendue units \"f/16 1/125 ISO100\" --to EV\n"
       "  etendue units \"15 klx @ 2 m\" --shape point --to cd --explain\n"
       "  etendue units \"60 W at 15 lm/W\" --to lm\n"
+      "  etendue units 1500lm --shape sphere --radius 15cm --dialect blender --efficacy 683lm/W\n"
       "  etendue units - --shape point --to cd < fluxes.csv");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_units(common, *options); }; });
 }

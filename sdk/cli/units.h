@@ -14,6 +14,7 @@ struct UnitsOptions {
   std::vector<std::string> quantities;
   std::string to, shape, distance, efficacy, spot_flux, spot_falloff, meter, normalise, table, dialect;
   std::map<std::string, std::string> sizes;  // "radius" -> "15 cm": those that a shape takes
+  std::optional<double> metres_per_unit;     // --dialect usd
   bool two_sided = false, explain = false, list = false, jsonl = false;
 };
 // The names that `sizes` may hold, each an option: "--radius".
@@ -43,6 +44,9 @@ struct Answer {
 Result<Answer> answer(const Written& given, const Target& target, const LightSetup& setup, const UnitsOptions& options);
 // In every unit that can be known from what was given.
 std::vector<Answer> every_answer(const Written& given, const LightSetup& setup, const UnitsOptions& options);
+
+// --dialect: what another program calls the light, in --to or in its usual unit. Adds to results.
+Status state_in_dialect(Session& session, const std::string& text, const LightSetup& setup, const UnitsOptions& options, Json& results);
 
 // --list and --table NAME, as lines and as JSON.
 void list_units(Session& session);
