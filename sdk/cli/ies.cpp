@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "photometric_convert.h"
+#include "photometric_svg.h"
 #include "verbs.h"
 
 namespace etendue::cli {
@@ -22,7 +23,7 @@ struct Options {
   std::size_t lamp_set = 1;
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   bool csv = false, check = false, strict = false;
-  std::string convert;
+  std::string convert, svg;
   double fold = -1;
   ConvertChoice conversion;
 };
@@ -138,6 +139,20 @@ int say_conversion(Session& session, Json& json, const PhotometricReading& readi
   return exit_done;
 }
 
+// One file: FILE.svg; several: a folder with a picture of each, by its name.
+Status draw(const PhotometricReading& reading, const Options& options, bool several) {
+  const fs::path name = fs::path(reading.file).filename();
+  fs::path out = options.svg;
+  if (several) {
+    std::error_code code;
+    fs::create_directories(out, code);
+    out /= name.string() + ".svg";
+  }
+  const std::string luminaire = keyword_of(reading.distribution, "LUMINAIRE");
+  const std::string svg = polar_svg(reading.web, luminaire.empty() ? name.string() : luminaire);
+  return write_file(out, std::as_bytes(std::span(svg)));
+}
+
 int run_ies(const Common& common, const Options& options) {
   Session session("ies", common);
   session.result = Json::array();
@@ -190,6 +205,9 @@ int run_ies(const Common& common, const Options& options) {
     if (!options.csv && !options.check && options.convert.empty()) session.print(report_of(reading, units));
     say_directions(session, json, reading.web, directions);
     say_cones(session, json, reading.web, distances, units);
+    if (!options.svg.empty()) {
+      if (const Status drawn = draw(reading, options, readings.size() > 1); !drawn) return session.fail(drawn.error());
+    }
     if (!options.convert.empty()) status = say_conversion(session, json, reading, options);
     session.result.push_back(std::move(json));
   }
@@ -218,6 +236,8 @@ void add_ies(CLI::App& app, const Common& common, Run& run) {
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
   verb->add_option("--convert", options->convert, "Write this .ies or .ldt, with a report of what is lost");
+  verb->add_option("--svg", options->svg,
+                   "Write the polar diagram to this file; of several files into this folder. What is there is replaced");
   verb->add_option("--year", options->conversion.year, "Version of the .ies that is written")
       ->capture_default_str()
       ->check(CLI::IsMember({"1986", "1991", "1995", "2002", "2019"}));
@@ -229,7 +249,7 @@ void add_ies(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--jobs", options->jobs, "Files at a time")->check(CLI::Range(1, 256));
   verb->footer(
       "\nExamples:\n  etendue ies lamp.ies\n  etendue ies library/ --csv > library.csv\n  etendue ies lamp.ldt --at 90,30 --cone 1m,2m,5m\n"
-      "  etendue ies library/ --check\n  etendue ies lamp.ies --convert lamp.ldt --fold 0.001");
+      "  etendue ies library/ --check\n  etendue ies lamp.ies --convert lamp.ldt --fold 0.001\n  etendue ies lamp.ies --svg lamp.svg");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_ies(common, *options); }; });
 }
 
