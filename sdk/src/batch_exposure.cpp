@@ -9,6 +9,8 @@
 
 #include "simd-inl.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -90,6 +92,11 @@ HWY_EXPORT(Scaled);
 HWY_EXPORT(LuminanceOfEv100);
 HWY_EXPORT(Ev100OfLuminance);
 
+Status usable(const Calibration& calibration) {
+  if (calibration.meter_k > 0 && std::isfinite(calibration.meter_k)) return Done{};
+  return Error{"CALIBRATION_INVALID", fmt::format("expected a meter's K above 0 and finite, found {}", calibration.meter_k), {}, {}, {}};
+}
+
 }  // namespace
 
 Status scaled(std::span<const float> in, double factor, std::span<float> out) {
@@ -105,6 +112,7 @@ Status scaled(std::span<const float> in, double factor, std::span<float> out) {
 BatchOutcome luminance_of_ev100(std::span<const float> ev100, const Calibration& calibration, std::span<float> luminance_cd_m2,
                                 float where_none) {
   if (ev100.size() != luminance_cd_m2.size()) return batch_sizes_differ(ev100.size(), luminance_cd_m2.size());
+  if (const Status checked = usable(calibration); !checked) return checked.error();
   const double log = std::log2(calibration.meter_k / 100), shift = std::round(log);
   constexpr double margin = 1e-4;  // more than rounding
   const EvScale scale{static_cast<float>(shift), static_cast<float>(std::exp2(log - shift)), static_cast<float>(-126 - log + margin),
@@ -115,6 +123,7 @@ BatchOutcome luminance_of_ev100(std::span<const float> ev100, const Calibration&
 BatchOutcome ev100_of_luminance(std::span<const float> luminance_cd_m2, const Calibration& calibration, std::span<float> ev100,
                                 float where_none) {
   if (luminance_cd_m2.size() != ev100.size()) return batch_sizes_differ(luminance_cd_m2.size(), ev100.size());
+  if (const Status checked = usable(calibration); !checked) return checked.error();
   const double shift = std::log2(calibration.meter_k / 100), whole = std::round(shift);
   return HWY_DYNAMIC_DISPATCH(Ev100OfLuminance)(luminance_cd_m2.data(), static_cast<float>(whole), static_cast<float>(shift - whole),
                                                 ev100.data(), luminance_cd_m2.size(), where_none);

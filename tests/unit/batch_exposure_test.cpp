@@ -119,6 +119,16 @@ TEST(BatchExposure, ScaledStaysFinite) {
   });
 }
 
+TEST(BatchExposure, CalibrationsMustHaveAMeter) {
+  std::vector<float> in(4), out(4);
+  for (const double k : {0.0, -12.5, std::nan(""), HUGE_VAL}) {
+    Calibration broken = frostbite();
+    broken.meter_k = k;
+    EXPECT_EQ(luminance_of_ev100(in, broken, out, none).error().code, "CALIBRATION_INVALID");
+    EXPECT_EQ(ev100_of_luminance(in, broken, out, none).error().code, "CALIBRATION_INVALID");
+  }
+}
+
 TEST(BatchExposure, SizesMustAgree) {
   std::vector<float> in(4), out(3);
   EXPECT_EQ(scaled(in, 2, out).error().code, "BATCH_SIZES_DIFFER");

@@ -23,6 +23,7 @@ using BatchOutcome = Result<std::size_t>;
 // product; what is too large for a float becomes the largest.
 Status scaled(std::span<const float> in, double factor, std::span<float> out);
 
+// Both with a calibration whose K is positive and finite, else CALIBRATION_INVALID.
 // L = 2^EV K/100. Within 3e-7 EV (a relative 2e-7) for L from the smallest normal float to the largest; EV below and above count as the
 // ends, to 1e-4 EV. NaN is outside the domain.
 BatchOutcome luminance_of_ev100(std::span<const float> ev100, const Calibration& calibration, std::span<float> luminance_cd_m2,
