@@ -1,6 +1,7 @@
 """What agreement with Mitsuba means, for the acceptance scripts: `etendue validate` says `same` at .2 %, with a standard error of at most
 .05 % in every region that is judged and chi-squared in [.92, 1.08]."""
 import json
+import math
 import pathlib
 import subprocess
 import time
@@ -47,9 +48,12 @@ def measure(arguments, asset, folder):
         result, problem = validate(arguments, asset, samples, folder)
         if result is None:
             return {"problem": problem}
-        if result["verdict"] != "undecided" or 4 * samples > arguments.most:
+        # Steps of sqrt(2), so that a second run asks --cache for the same pictures.
+        steps = math.ceil(2 * math.log2(1.1 * max(result.get("samples_needed", 0), 1.8 * samples) / arguments.spp))
+        wanted = round(arguments.spp * 2 ** (steps / 2))
+        if result["verdict"] != "undecided" or wanted > arguments.most:
             break
-        samples *= 4
+        samples = wanted
     regions = judged(result)
     worst = max(regions, key=lambda r: abs(r["difference"]) - 3 * r["standard_error"])
     # Chi-squared has its window over 1e4 pixels or more; the lower end moves where Mitsuba's float32 sums are more than its noise.

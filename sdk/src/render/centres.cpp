@@ -47,8 +47,10 @@ void LightPainter::centre_row(std::uint32_t row, int pass, RayCounts& counts) {
     if (!is_plain(point)) continue;
     // Lambert's closed forms cost no more than an interpolation.
     const bool matt = std::holds_alternative<Lambert>(stage_.thing(point->thing).paint->material.model);
-    const std::optional<Rgb> value = matt ? std::nullopt : interpolated(x, row);
-    centre_[pixel] = value ? *value : lighting_.reflected(light_, *point, -ray.direction, tolerance_, counts);
+    const std::optional<Reflected> between = matt ? std::nullopt : interpolated(x, row);
+    const Reflected value = between ? *between : lighting_.reflected(light_, *point, -ray.direction, tolerance_, counts);
+    centre_[pixel] = value.value;
+    centre_bound_[pixel] = static_cast<float>(value.bound);
     known_[pixel] = 1;
   }
 }
@@ -56,7 +58,7 @@ void LightPainter::centre_row(std::uint32_t row, int pass, RayCounts& counts) {
 // The cubic through four places at -3, -1, 1, 3 steps has (9 (f(-1) + f(1)) - f(-3) - f(3)) / 16 in the middle. With h the step, f2 and f4
 // the second and fourth derivatives, it differs from the straight line's value by b = h^2 f2 / 2 and errs by .375 h^4 f4; with f4 of the
 // order f2^2 / f that is 1.5 b^2 / f.
-std::optional<Rgb> LightPainter::interpolated(std::uint32_t x, std::uint32_t y) const {
+std::optional<Reflected> LightPainter::interpolated(std::uint32_t x, std::uint32_t y) const {
   const Place place = place_of(x, y);
   if (light_.delta || !(place.between_x || place.between_y)) return std::nullopt;
   const std::size_t stride = place.between_x ? 1 : options_.width;
@@ -70,7 +72,9 @@ std::optional<Rgb> LightPainter::interpolated(std::uint32_t x, std::uint32_t y) 
   const Rgb value = inner * (9.0 / 16) - outer / 16.0;
   const double bend = largest(inner - outer) / 16;
   const double allowed = std::max(0.3 * std::sqrt(tolerance_.relative) * largest(value), tolerance_.absolute);
-  return bend <= allowed ? std::optional(value) : std::nullopt;
+  if (bend > allowed) return std::nullopt;
+  const double size = largest(value), own = static_cast<double>(std::max(centre_bound_[pixel - reach], centre_bound_[pixel + reach]));
+  return Reflected{value, own + (size > 0 ? 1.5 * bend * bend / size : bend)};
 }
 
 // The mean of f over a pixel of side 1 is f + (f_xx + f_yy) / 24 + O(4th derivatives); second differences of neighbours give f_xx, f_yy.

@@ -79,14 +79,14 @@ Rgb Lighting::emitted(const StageLight& light, const std::optional<SurfacePoint>
   return met ? eval::light_along(light.as_seen, ray.origin, ray.direction).radiance : Rgb{};
 }
 
-Rgb Lighting::reflected(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
-                        RayCounts& counts) const {
+Reflected Lighting::reflected(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
+                              RayCounts& counts) const {
   const auto shading = shading_point(stage_.thing(point.thing).paint, point, view);
   if (!shading) return {};
   if (!light.delta) {
     const eval::Estimate estimate = eval::reference(light.emitter, *shading, tolerance);
     counts.evaluations += estimate.evaluations;
-    return estimate.value;
+    return {estimate.value, largest(estimate.error)};
   }
   const eval::LightSample sample = delta_light(light, point.position);
   if (sample.pdf <= 0) return {};
@@ -94,7 +94,8 @@ Rgb Lighting::reflected(const StageLight& light, const SurfacePoint& point, cons
   ++counts.evaluations;
   if (value == Rgb{}) return {};
   ++counts.shadow;
-  return stage_.blocked(point, sample.direction, sample.distance, light.thing) ? Rgb{} : value;
+  if (stage_.blocked(point, sample.direction, sample.distance, light.thing)) return {};
+  return {value, 0};
 }
 
 std::optional<SurfacePoint> Lighting::target_point(const PixelTarget& target, const Ray& ray, RayCounts& counts) const {

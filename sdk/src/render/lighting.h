@@ -5,7 +5,12 @@
 
 #include "etendue/eval.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace etendue::rendering {
+
+inline double largest(const Rgb& c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
 
 inline constexpr int replicates = 8;  // independent estimates that a variance is computed from
 
@@ -13,6 +18,12 @@ inline constexpr int replicates = 8;  // independent estimates that a variance i
 struct Sampled {
   Rgb mean, variance;                   // of the mean
   double visible_sum = 0, all_sum = 0;  // of the samples' light with and without shadows
+};
+
+// Reflected light with nothing in between, and what eval::reference vouches for its error (in the channel where that is largest).
+struct Reflected {
+  Rgb value;
+  double bound = 0;
 };
 
 // Where the samples of a pixel lie: over its area, or on one plane that fills it.
@@ -27,9 +38,9 @@ class Lighting {
 
   // Luminance of the light's own surface, or of the environment behind everything.
   Rgb emitted(const StageLight& light, const std::optional<SurfacePoint>& point, const Ray& ray) const;
-  // Reflected luminance with nothing in between; a punctual light's with its shadow. Only for analytic and delta lights.
-  Rgb reflected(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
-                RayCounts& counts) const;
+  // Of a punctual light, with its shadow. Only for analytic and delta lights.
+  Reflected reflected(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
+                      RayCounts& counts) const;
   // The mean of (V - beta) times reflected light over pixel and light; V is 1 where the light is seen and else 0.
   Sampled sample(const StageLight& light, const PixelTarget& target, double beta, int points_a_replicate, std::uint64_t seed,
                  RayCounts& counts) const;

@@ -2,9 +2,7 @@
 #include "hashing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
 namespace etendue::rendering {
 namespace {
@@ -13,12 +11,9 @@ constexpr int pilot_points = 2;                      // a replicate: 16 samples 
 constexpr int fewest_points = 4, most_points = 128;  // a replicate, where shadows are mixed
 constexpr double shadow_share = 0.2;                 // of the expected noise
 constexpr double shading_share = 0.02;               // of the expected noise: errors of shading are alike in neighbours
-constexpr int most_cells = 8;                        // along a pixel's side
 constexpr double dark_share = 0.05;                  // of the typical luminance: what is darker is not judged
 
-constexpr std::uint64_t pilot_purpose = 0, shadow_purpose = 1, place_purpose = 2, typical_purpose = 3;
-
-Rgb squared(const Rgb& c) { return c * c; }
+constexpr std::uint64_t pilot_purpose = 0, shadow_purpose = 1, typical_purpose = 3;  // 2: places.cpp
 
 // Points a replicate so that a half-shadowed pixel, standard deviation .5, comes to `goal` of its light. A sequence of n points in the
 // dimensions of a shadow converges about as n^-3/4; a light that is only sampled has a standard deviation near 1.
@@ -65,7 +60,7 @@ double LightPainter::typical_luminance() const {
 bool LightPainter::run(RowRunner& rows) {
   const std::size_t pixels = value_.size();
   if (shadows_) visible_.assign(pixels, 0), all_.assign(pixels, 0);
-  if (light_.analytic) centre_.assign(pixels, {}), known_.assign(pixels, 0);
+  if (light_.analytic) centre_.assign(pixels, {}), centre_bound_.assign(pixels, 0), known_.assign(pixels, 0);
   const bool done = rows.run([this](std::uint32_t row, RayCounts& counts) {
     if (shadows_) pilot_row(row, counts);
   }) && find_centres(rows) &&
@@ -73,9 +68,9 @@ bool LightPainter::run(RowRunner& rows) {
   return done;
 }
 
-bool LightPainter::turns(std::size_t pixel) const {
+bool LightPainter::is_uneven(std::size_t pixel) const {
   constexpr double most = 0.15;
-  return survey_.turn(pixel) > most;
+  return survey_.unevenness(pixel) > most;
 }
 
 bool LightPainter::is_plain(const std::optional<SurfacePoint>& point) const {
@@ -101,8 +96,8 @@ void LightPainter::pilot_row(std::uint32_t row, RayCounts& counts) {
 
 LightPainter::Surroundings LightPainter::surroundings(std::uint32_t x, std::uint32_t y) const {
   if (light_.delta) return {1, false};
-  // On a surface that turns too fast no few places stand for the pixel: all light is sampled, as where it has no closed form.
-  if (!light_.analytic || turns(index(x, y))) return {0, true};
+  // Where the surface is uneven no few places stand for the pixel: all light is sampled, as where it has no closed form.
+  if (!light_.analytic || is_uneven(index(x, y))) return {0, true};
   if (!shadows_) return {1, false};
   double visible = 0, all = 0;
   for (std::uint32_t j = y > 0 ? y - 1 : 0; j <= std::min(y + 1, options_.height - 1); ++j) {
@@ -115,127 +110,6 @@ LightPainter::Surroundings LightPainter::surroundings(std::uint32_t x, std::uint
   // Both sums are of the same terms in the same order, so equality is exact where nothing was blocked.
   if (all <= 0 || visible == all) return {1, false};
   return {visible / all, visible > 0};
-}
-
-Rgb LightPainter::at(double x, double y, double beta, RayCounts& counts) const {
-  const Ray ray = camera_.through(x, y);
-  ++counts.primary;
-  const auto point = stage_.first(ray);
-  Rgb value = lighting_.emitted(light_, point, ray);
-  if (point && beta > 0 && (light_.delta || light_.analytic)) {
-    value += lighting_.reflected(light_, *point, -ray.direction, tolerance_, counts) * beta;
-  }
-  return value;
-}
-
-// One place in each of side x side cells. Neighbouring cells in pairs: half their squared difference estimates (from above, since it holds
-// the difference of their means too) the variance inside a cell.
-LightPainter::Measured LightPainter::stratified(std::uint32_t x, std::uint32_t y, double beta, int side, RayCounts& counts) const {
-  Random random(seed(index(x, y), place_purpose));
-  const double cells = static_cast<double>(side) * side;
-  Measured out;
-  for (int j = 0; j < side; ++j) {
-    for (int i = 0; i < side; i += 2) {
-      std::array<Rgb, 2> pair;
-      for (int k = 0; k < 2; ++k) {
-        const double u = (i + k + random.next()) / side, v = (j + random.next()) / side;
-        pair[static_cast<std::size_t>(k)] = at(x + u, y + v, beta, counts);
-      }
-      out.value += (pair[0] + pair[1]) / cells;
-      out.variance += squared(pair[0] - pair[1]) / (cells * cells);
-    }
-  }
-  return out;
-}
-
-// `side` is 2 or 3 places along each side of the pixel: exact up to third or fifth degree.
-Rgb LightPainter::gauss_legendre(std::uint32_t x, std::uint32_t y, double beta, int side, RayCounts& counts) const {
-  static const double two = std::sqrt(1.0 / 12), three = std::sqrt(0.15);
-  const std::array<double, 3> place = side == 2 ? std::array{-two, two, 0.0} : std::array{-three, three, 0.0};
-  const std::array<double, 3> weight = side == 2 ? std::array{0.5, 0.5, 0.0} : std::array{5 / 18.0, 5 / 18.0, 8 / 18.0};
-  Rgb sum;
-  for (std::size_t j = 0; j < static_cast<std::size_t>(side); ++j) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(side); ++i) {
-      sum += at(x + 0.5 + place[i], y + 0.5 + place[j], beta, counts) * (weight[i] * weight[j]);
-    }
-  }
-  return sum;
-}
-
-LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, double beta, const std::optional<SurfacePoint>& centre,
-                                            RayCounts& counts) const {
-  const std::size_t pixel = index(x, y);
-  const Thing* thing = centre ? &stage_.thing(centre->thing) : nullptr;
-  const bool own_light = thing != nullptr && centre->thing == light_.thing;
-  const bool patterned = own_light && static_cast<bool>(light_.emitter.pattern);
-  const bool textured = thing != nullptr && thing->paint != nullptr && thing->paint->textured();
-  if ((!centre && light_.background) || patterned || (textured && (beta > 0 || own_light))) {
-    const bool costly = !light_.delta && textured && !std::holds_alternative<Lambert>(thing->paint->material.model);
-    return stratified(x, y, beta, costly ? 2 : 4, counts);
-  }
-  const Ray ray = camera_.through(x + 0.5, y + 0.5);
-  Measured out{lighting_.emitted(light_, centre, ray), {}};
-  if (beta <= 0 || thing == nullptr || thing->paint == nullptr || !light_.analytic) return out;
-  // With g = |f_xx / f| the next terms are of the order g^2: g^2 / 340 here, g^2 / 4320 and g^3 / 2e6 for the two quadratures below.
-  constexpr double gentle = 0.01, steep = 0.1;
-  const std::optional<Curvature> bend = curvature(x, y);
-  if (light_.delta && turns(pixel)) return stratified(x, y, beta, most_cells, counts);
-  if (bend && bend->relative < gentle) {
-    out.value += (centre_[pixel] + bend->correction) * beta;
-    return out;
-  }
-  // Beside an edge the second differences are missing. A costly light has noise enough in the reference to hide g / 24.
-  if (!bend && known_[pixel] != 0 && !light_.delta && !std::holds_alternative<Lambert>(thing->paint->material.model)) {
-    out.value += centre_[pixel] * beta;
-    return out;
-  }
-  const Rgb finer = gauss_legendre(x, y, beta, bend && bend->relative > steep ? 3 : 2, counts);
-  // Where the light is smooth, the finer rule's error is under a tenth of the difference; at a kink it is up to a third.
-  if (bend) out.variance = squared((out.value + (centre_[pixel] + bend->correction) * beta - finer) / 4.0);
-  out.value = finer;
-  return out;
-}
-
-LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, const Regions& regions, double beta, RayCounts& counts) const {
-  struct Region {
-    Rgb sum, squares;
-    double weight = 0;
-    int nodes = 0;
-  };
-  std::map<std::uint32_t, Region> all;
-  const bool cheap = light_.delta || regions.only_lambert;
-  Rgb between_pairs, previous;
-  bool second = false;
-  for (const Node& node : cheap ? regions.nodes : regions.coarse) {
-    const Rgb value = at(x + static_cast<double>(node.x), y + static_cast<double>(node.y), beta, counts);
-    const auto weight = static_cast<double>(node.weight);
-    Region& region = all[node.region];
-    region.sum += value * weight;
-    region.squares += squared(value) * weight;
-    region.weight += weight;
-    ++region.nodes;
-    // Nodes along scanlines come in pairs, one pair a piece: on a texture their difference is the error's measure, as in stratified().
-    if (second) between_pairs += squared((value - previous) * weight);
-    previous = value;
-    second = !second;
-  }
-  Measured out;
-  Rgb low{infinite, infinite, infinite}, high{};
-  for (const auto& [number, region] : all) {
-    const Rgb mean = region.weight > 0 ? region.sum / region.weight : Rgb{};
-    out.value += region.sum;
-    for (int c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], mean[c]);
-      high[c] = std::max(high[c], mean[c]);
-      // Places chosen at random where the surface varies; the others are a quadrature, whose error is far below the areas'.
-      if (cheap || region.nodes < 2) continue;
-      const double spread = std::max(0.0, region.squares[c] / region.weight - mean[c] * mean[c]) / (region.nodes - 1);
-      out.variance[c] += region.weight * region.weight * spread;
-    }
-  }
-  if (cheap && regions.textured) out.variance += between_pairs;
-  out.variance += squared((high - low) * regions.area_error);
-  return out;
 }
 
 LightPainter::Measured LightPainter::sampled(std::uint32_t x, std::uint32_t y, const Surroundings& around,
@@ -267,7 +141,7 @@ void LightPainter::paint_row(std::uint32_t row, RayCounts& counts) {
     value_[pixel] = direct.value;
     variance_[pixel] = direct.variance;
     // What shading may be off by is a bound, not a deviation: a tenth of it is a choice (sdk/docs/rendering.md), not a measurement.
-    if (!light_.delta) variance_[pixel] += Rgb{1, 1, 1} * std::pow(0.1 * around.beta * tolerance_.absolute, 2);
+    variance_[pixel] += Rgb{1, 1, 1} * std::pow(0.1 * direct.bound, 2);
     if (light_.delta || (regions == nullptr && (!centre || stage_.thing(centre->thing).paint == nullptr))) continue;
     const Measured shadow = sampled(x, row, around, centre, counts);
     value_[pixel] += shadow.value;

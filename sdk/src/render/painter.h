@@ -18,8 +18,6 @@ struct PainterOptions {
   std::uint64_t seed = 1;
 };
 
-inline double largest(const Rgb& c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
-
 class LightPainter {
  public:
   LightPainter(const Stage& stage, const PinholeCamera& camera, const Survey& survey, const StageLight& light,
@@ -35,6 +33,11 @@ class LightPainter {
  private:
   struct Measured {
     Rgb value, variance;
+    double bound = 0;  // of the shading's own error, beside the variance
+  };
+  // A square part of the picture, its sides in pixels.
+  struct Cell {
+    double x, y, side;
   };
   struct Curvature {
     Rgb correction;   // from the centre's value to the pixel's mean
@@ -50,18 +53,19 @@ class LightPainter {
   void pilot_row(std::uint32_t row, RayCounts& counts);
   bool find_centres(RowRunner& rows);
   void centre_row(std::uint32_t row, int pass, RayCounts& counts);
-  std::optional<Rgb> interpolated(std::uint32_t x, std::uint32_t y) const;
+  std::optional<Reflected> interpolated(std::uint32_t x, std::uint32_t y) const;
   void paint_row(std::uint32_t row, RayCounts& counts);
   Surroundings surroundings(std::uint32_t x, std::uint32_t y) const;
   bool centre_is_needed(std::uint32_t x, std::uint32_t y) const;
-  bool turns(std::size_t pixel) const;
+  bool is_uneven(std::size_t pixel) const;
   bool is_plain(const std::optional<SurfacePoint>& point) const;
   PixelTarget target(std::uint32_t x, std::uint32_t y, const SurfacePoint* plane) const;
-  Rgb at(double x, double y, double beta, RayCounts& counts) const;
+  Reflected at(double x, double y, double beta, RayCounts& counts) const;
+  Measured over_places(std::uint32_t x, std::uint32_t y, double beta, RayCounts& counts) const;
+  Reflected gauss_legendre(const Cell& cell, double beta, int side, RayCounts& counts) const;
+  Measured cubature(const Cell& cell, double beta, int halvings, RayCounts& counts) const;
   Measured smooth(std::uint32_t x, std::uint32_t y, double beta, const std::optional<SurfacePoint>& centre, RayCounts& counts) const;
-  Rgb gauss_legendre(std::uint32_t x, std::uint32_t y, double beta, int side, RayCounts& counts) const;
   Measured split(std::uint32_t x, std::uint32_t y, const Regions& regions, double beta, RayCounts& counts) const;
-  Measured stratified(std::uint32_t x, std::uint32_t y, double beta, int side, RayCounts& counts) const;
   Measured sampled(std::uint32_t x, std::uint32_t y, const Surroundings& around, const std::optional<SurfacePoint>& centre,
                    RayCounts& counts) const;
   std::optional<Curvature> curvature(std::uint32_t x, std::uint32_t y) const;
@@ -78,6 +82,7 @@ class LightPainter {
   bool shadows_;                      // something may stand in the light's way
   std::vector<float> visible_, all_;  // pilot: light with and without shadows
   std::vector<Rgb> centre_;           // unblocked light at the centres of smooth pixels
+  std::vector<float> centre_bound_;   // what its error may be
   std::vector<std::uint8_t> known_;   // where centre_ holds something
   std::vector<Rgb> value_, variance_;
 };

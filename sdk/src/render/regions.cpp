@@ -22,8 +22,8 @@ struct Piece {
   double begin, end;
   double across;     // the scanline's place
   std::size_t kind;  // equal for what is the same, see same()
-  bool varies;       // curved or textured: one place cannot stand for all
-  bool textured, lambert;
+  SurfaceKind surface;
+  bool lambert;
 };
 
 class Scanner {
@@ -48,6 +48,7 @@ class Scanner {
   }
 
   std::size_t kind_at(double along, double across) { return kind_of(look(along, across).probe); }
+  std::size_t kind_in_pixel(double u, double v) { return kind_of(prober_.look(x_ + u, y_ + v, counts_)); }
 
  private:
   Look look(double along, double across) const {
@@ -76,7 +77,7 @@ class Scanner {
   }
 
   void close(double begin, double end, double across, const Probe& probe, std::vector<Piece>& pieces) {
-    if (end > begin) pieces.push_back({begin, end, across, kind_of(probe), varies(probe), is_textured(probe), is_lambert(probe)});
+    if (end > begin) pieces.push_back({begin, end, across, kind_of(probe), surface_of(probe), is_lambert(probe)});
   }
 
   std::size_t kind_of(const Probe& probe) {
@@ -91,12 +92,15 @@ class Scanner {
     return paint == nullptr || std::holds_alternative<Lambert>(paint->material.model);
   }
 
-  bool is_textured(const Probe& probe) const {
-    const Paint* paint = probe.point ? stage_.thing(probe.point->thing).paint : nullptr;
-    return paint != nullptr && paint->textured();
+  SurfaceKind surface_of(const Probe& probe) const {
+    if (!probe.point) return {true, false};
+    const std::uint32_t thing = probe.point->thing;
+    const Paint* paint = stage_.thing(thing).paint;
+    const bool patterned = std::any_of(stage_.lights().begin(), stage_.lights().end(),
+                                       [&](const StageLight& light) { return light.thing == thing && light.emitter.pattern; });
+    const bool textured = patterned || (paint != nullptr && paint->textured());
+    return {textured || !probe.point->flat, textured};
   }
-
-  bool varies(const Probe& probe) const { return !probe.point || !probe.point->flat || is_textured(probe); }
 
   const Prober& prober_;
   const Stage& stage_;
@@ -172,6 +176,25 @@ void add_stratified(const Scanner& scanner, const std::vector<Piece>& pieces, do
   }
 }
 
+// Places over the whole pixel, one at random in each of cells x cells, by what they fall on: for textured regions, whose areas are known
+// better than the places' numbers say.
+std::map<std::size_t, std::vector<Vec2d>> places_by_kind(Scanner& scanner, Random& random) {
+  constexpr int cells = 12;
+  std::map<std::size_t, std::vector<Vec2d>> places;
+  for (int i = 0; i < cells * cells; ++i) {
+    const Vec2d place{(i % cells + random.next()) / cells, (i / cells + random.next()) / cells};
+    places[scanner.kind_in_pixel(place.x, place.y)].push_back(place);
+  }
+  return places;
+}
+
+void add_equal_parts(const std::vector<Vec2d>& places, double area, std::uint32_t region, std::vector<Node>& nodes) {
+  for (const Vec2d& place : places) {
+    nodes.push_back(
+        {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(area / static_cast<double>(places.size())), region});
+  }
+}
+
 // Gauss and Legendre's two places on each piece.
 void add_along_pieces(const Scanner& scanner, const std::vector<Piece>& pieces, int lines, std::uint32_t region, std::vector<Node>& nodes) {
   const double away = std::sqrt(1.0 / 12);
@@ -201,17 +224,27 @@ Regions regions_of(const Prober& prober, const Stage& stage, std::uint32_t x, st
     if ((lines > first_lines && difference < tolerance) || lines == most_lines) break;
   }
   Random random(seed);
+  const bool any_textured = std::any_of(pieces.begin(), pieces.end(), [](const Piece& p) { return p.surface.textured; });
+  std::map<std::size_t, std::vector<Vec2d>> places;
+  if (any_textured) places = places_by_kind(scanner, random);
   std::uint32_t number = 0;
   for (const auto& [kind, area] : areas) {
     std::vector<Piece> own;
     std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(own), [kind = kind](const Piece& p) { return p.kind == kind; });
-    if (std::any_of(own.begin(), own.end(), [](const Piece& p) { return p.varies; })) {
-      add_stratified(scanner, own, area, number, random, regions.coarse);
+    const bool textured = own.front().surface.textured && places[kind].size() > 1;
+    const bool varies = std::any_of(own.begin(), own.end(), [](const Piece& p) { return p.surface.varies; });
+    if (textured) {
+      add_equal_parts(places[kind], area, number, regions.coarse);
+      add_equal_parts(places[kind], area, number, regions.nodes);
     } else {
-      add_centroid(scanner, own, area, number, regions.coarse);
+      if (varies) {
+        add_stratified(scanner, own, area, number, random, regions.coarse);
+      } else {
+        add_centroid(scanner, own, area, number, regions.coarse);
+      }
+      add_along_pieces(scanner, own, lines, number, regions.nodes);
     }
-    add_along_pieces(scanner, own, lines, number, regions.nodes);
-    regions.textured = regions.textured || own.front().textured;
+    regions.kinds.push_back({varies, textured});
     regions.only_lambert = regions.only_lambert && own.front().lambert;
     ++number;
   }

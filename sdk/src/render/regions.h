@@ -15,12 +15,18 @@ struct Node {
   std::uint32_t region = 0;  // nodes of one region share its number
 };
 
+// What a region shows. A textured one has places chosen at random, one that only turns has such in `coarse`.
+struct SurfaceKind {
+  bool varies = false;  // one place cannot stand for all
+  bool textured = false;
+};
+
 // The weights of either list sum to 1. `area_error`: estimate for the area of any region, in pixels.
 struct Regions {
-  std::vector<Node> nodes;   // along all scanlines: quadratic variation is integrated exactly along them
-  std::vector<Node> coarse;  // one a region, at its centroid (exact where light varies linearly); several where the surface itself varies
+  std::vector<Node> nodes;         // along all scanlines: quadratic variation is integrated exactly along them
+  std::vector<Node> coarse;        // one a region, at its centroid (exact where light varies linearly); several where the surface varies
+  std::vector<SurfaceKind> kinds;  // by region
   double area_error = 0;
-  bool textured = false;     // something in the pixel is
   bool only_lambert = true;  // what is seen is matt, black or a light
 };
 // `tolerance`: of the areas, in pixels. `seed`: of the places within regions whose shading varies.

@@ -18,7 +18,7 @@ Survey::Survey(const Stage& stage, const PinholeCamera& camera, const SurveyOpti
       suspected_(keys_.size()),
       split_(keys_.size()),
       emitter_(keys_.size()),
-      turn_(keys_.size()),
+      unevenness_(keys_.size()),
       regions_(keys_.size()),
       environment_(std::any_of(stage.lights().begin(), stage.lights().end(),
                                [](const StageLight& l) { return std::holds_alternative<eval::EnvironmentEmitter>(l.emitter.shape); })) {}
@@ -33,10 +33,13 @@ bool Survey::is_emitter(const Probe& probe) const {
   return environment_ || probe.key != nothing_key;
 }
 
-double Survey::turn_between(const Probe& a, const Probe& b) const {
-  if (a.key != b.key || !a.point || !b.point || (a.point->flat && b.point->flat)) return 0;
+double Survey::uneven_between(const Probe& a, const Probe& b) const {
+  if (a.key != b.key || !a.point || !b.point) return 0;
   const Paint* paint = stage_.thing(a.point->thing).paint;
-  return paint != nullptr ? length(cross(a.point->normal, b.point->normal)) / lobe_width(paint->material.model) : 0;
+  if (paint == nullptr) return 0;
+  if (paint->textured() && !std::holds_alternative<Lambert>(paint->material.model)) return infinite;
+  if (a.point->flat && b.point->flat) return 0;
+  return length(cross(a.point->normal, b.point->normal)) / lobe_width(paint->material.model);
 }
 
 void Survey::look_first(std::uint32_t row, RayCounts& counts) {
@@ -57,13 +60,13 @@ void Survey::look_first(std::uint32_t row, RayCounts& counts) {
       const double u = random.next(), v = random.next();
       probes.push_back(prober_.look(x + u, row + v, counts));
     }
-    double turn = 0;
+    double uneven = 0;
     for (std::size_t i = 0; i < probes.size(); ++i) {
       if (!same(centre, probes[i])) suspected_[pixel] = 1;
       if (is_emitter(probes[i])) emitter_[pixel] = 1;
-      for (std::size_t j = 0; j < i; ++j) turn = std::max(turn, turn_between(probes[i], probes[j]));
+      for (std::size_t j = 0; j <= i; ++j) uneven = std::max(uneven, uneven_between(probes[i], probes[j]));
     }
-    turn_[pixel] = static_cast<float>(turn);
+    unevenness_[pixel] = static_cast<float>(uneven);
   }
 }
 

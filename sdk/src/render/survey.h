@@ -30,22 +30,23 @@ class Survey {
   std::uint64_t key(std::size_t pixel) const { return keys_[pixel]; }
   // The pixel or one beside it does: where a sliver between the probes may have been missed.
   bool touches_emitter(std::size_t pixel) const;
-  // How far a surface turns between two places of the pixel, as a part of the width of what it reflects.
-  double turn(std::size_t pixel) const { return static_cast<double>(turn_[pixel]); }
+  // How far a surface turns between two places of the pixel, as a part of the width of what it reflects; infinite where a texture changes
+  // that width or the normal.
+  double unevenness(std::size_t pixel) const { return static_cast<double>(unevenness_[pixel]); }
 
  private:
   void look_first(std::uint32_t row, RayCounts& counts);
   void look_again(std::uint32_t row, RayCounts& counts);
   bool any_around(const std::vector<std::uint8_t>& flags, std::uint32_t x, std::uint32_t y) const;  // in 3 x 3 pixels
   bool is_emitter(const Probe& probe) const;
-  double turn_between(const Probe& a, const Probe& b) const;
+  double uneven_between(const Probe& a, const Probe& b) const;
 
   const Stage& stage_;
   Prober prober_;
   SurveyOptions options_;
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint8_t> suspected_, split_, emitter_;
-  std::vector<float> turn_;
+  std::vector<float> unevenness_;
   std::vector<std::unique_ptr<Regions>> regions_;
   bool environment_;  // fills what nothing else does
 };
