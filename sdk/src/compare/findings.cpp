@@ -23,6 +23,8 @@ constexpr double as_good_as_two = .99, as_good_as_shape = .95;
 constexpr double mostly = .8;
 // A camera or a pixel grid is off by a pixel at most; a larger shift that does not explain all is a light that has moved.
 constexpr double likely_shift = 1.5, nearly_all = .9;
+// As CompareOptions has it: regions darker than this part of the mean say nothing.
+constexpr double dark_region = CompareOptions{}.dark_region;
 // Three channels of a pixel share most of their noise: chi-squared over them counts for one.
 constexpr double shared_noise = 3;
 
@@ -142,27 +144,42 @@ bool is_global(const Model& model) { return model.kind != Model::Kind::light_sca
 
 bool is_of_optics(const Finding& finding) { return finding.code == "SHIFT" || finding.code == "PIXEL_FILTER" || finding.code == "GAMMA"; }
 
-// What a single light's layers show: a LIGHT_... finding, or what a camera or a film would do.
-std::optional<Finding> examine_light(const Evidence& e, const std::string& light, double threshold_z, double max_difference) {
+// A region that differs by more than the difference asked about, or pixels that do.
+bool is_beyond(const Evidence& e, double threshold_z, double max_difference) {
+  const PixelStatistics pixels = pixel_statistics(e);
+  if (pixels.excess_z > threshold_z && pixels.excess_rel > max_difference) return true;
   const std::vector<Region> regions = divide(e, 4, {});
   const std::array<TailRate, 3> tails = tail_rates(regions[0]);
-  bool differs = pixel_statistics(e).excess_z > threshold_z;
-  for (const Region& region : regions) {
-    for (std::size_t c = 0; c < 3; ++c) differs = differs || std::abs(estimate(region.sums[c], tails[c], 0).z) > threshold_z;
-  }
+  return std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Sums &here = region.sums[c], &all = regions[0].sums[c];
+      const bool dark = std::max(here.ours, here.reference) * all.pixels < dark_region * all.reference * here.pixels;
+      if (!dark && estimate(here, tails[c], max_difference).z_beyond > threshold_z) return true;
+    }
+    return false;
+  });
+}
+
+// What a single light's layers show: a LIGHT_... finding, or what a camera or a film would do. A light that agrees within the difference
+// asked about is not said to be turned: detail below the size of a pixel looks like that too.
+std::optional<Finding> examine_light(const Evidence& e, const std::string& light, double threshold_z, double max_difference) {
+  if (!is_beyond(e, threshold_z, 0)) return std::nullopt;
   double ours = 0, reference = 0;
   for (double value : e.ours) ours += std::abs(value);
   for (double value : e.reference) reference += std::abs(value);
-  if (!differs) return std::nullopt;
   if (ours < .05 * reference) return light_finding(light, 0, 0, true);
-
   if (relative_change(e.ours, e.reference, e) < max_difference / 10) return std::nullopt;
 
-  const std::optional<Candidate> best =
-      best_candidate(e.ours, e, models_for(e.ours, e, {}, {}), weights_of(e), threshold_z, max_difference);
-  if (!best || best->explained < mostly) return shape_finding(light, pixel_statistics(e).excess_rel);
-  if (best->model.kind != Model::Kind::scale) return describe(*best, e.ours, e);
-  return light_finding(light, 1 / (1 + best->fit.theta[0]), best->fit.errors[0], false);
+  const Values weights = weights_of(e);
+  const std::optional<Candidate> best = best_candidate(e.ours, e, models_for(e.ours, e, {}, {}), weights, threshold_z, max_difference);
+  if (best && best->explained >= mostly) {
+    if (best->model.kind != Model::Kind::scale) return describe(*best, e.ours, e);
+    return light_finding(light, 1 / (1 + best->fit.theta[0]), best->fit.errors[0], false);
+  }
+  if (!is_beyond(e, threshold_z, max_difference)) return std::nullopt;
+  const std::optional<Candidate> elsewhere =
+      best_candidate(e.ours, e, {own_shape_model(e.ours, e, light)}, weights, threshold_z, max_difference);
+  return elsewhere ? std::optional(describe(*elsewhere, e.ours, e)) : std::nullopt;
 }
 
 // Each light's own layers, where both pictures have them: less noise than the sum of all lights. A camera or a film errs for all lights
@@ -191,12 +208,15 @@ std::vector<Finding> find_in_layers(const Picture& ours, const Picture& referenc
 
 std::vector<Finding> find_causes(const Evidence& e, const Picture& ours, const Picture& reference, double threshold_z,
                                  double max_difference) {
+  const bool beyond = is_beyond(e, threshold_z, max_difference);
   const Values weights = weights_of(e);
   std::vector<Finding> findings;
   Values base = e.ours;
   bool global = false;
   while (findings.size() < most_findings) {
-    std::optional<Candidate> best = best_candidate(base, e, models_for(base, e, ours, reference), weights, threshold_z, max_difference);
+    std::vector<Model> models = models_for(base, e, ours, reference);
+    if (!beyond) std::erase_if(models, [](const Model& model) { return model.kind == Model::Kind::light_shape; });
+    std::optional<Candidate> best = best_candidate(base, e, std::move(models), weights, threshold_z, max_difference);
     if (!best) break;
     findings.push_back(describe(*best, base, e));
     global = global || is_global(best->model);

@@ -246,6 +246,14 @@ std::vector<Model> models_for(const Values& base, const Evidence& e, const Pictu
   return models;
 }
 
+Model own_shape_model(const Values& base, const Evidence& e, const std::string& light) {
+  const int width = static_cast<int>(e.width), height = static_cast<int>(e.height);
+  Model model = linear_model(Model::Kind::light_shape, base, shape_parameters,
+                             [&base, width, height] { return shape_bases(base, base, width, height); });
+  model.light = light;
+  return model;
+}
+
 Values weights_of(const Evidence& e) {
   Values weights(e.variance.size());
   for (std::size_t i = 0; i < weights.size(); ++i) {

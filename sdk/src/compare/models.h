@@ -24,6 +24,9 @@ struct Model {
 // The models for a picture `base` (ours, or ours after earlier findings), with the light layers of both pictures.
 std::vector<Model> models_for(const std::vector<double>& base, const Evidence& evidence, const Picture& ours, const Picture& reference);
 
+// The light of a picture that holds it alone, thrown elsewhere.
+Model own_shape_model(const std::vector<double>& base, const Evidence& evidence, const std::string& light);
+
 struct Fit {
   std::vector<double> theta;
   std::vector<double> errors;  // standard errors of theta

@@ -19,7 +19,10 @@ PixelStatistics pixel_statistics(const Evidence& e) {
       // What is black in both measures nothing, whatever error it claims.
       if (!(v > 0) || (e.ours[i] == 0 && e.reference[i] == 0)) continue;
       chi2 += d * d / v;
-      noisy += std::max(0.0, 1 - std::pow(float_accumulation * e.reference[i], 2) / v);
+      // E[D^2 / sigma^2] where a part f of sigma^2 is noise that was estimated and the rest is known: f (1 + 2 f^2 / (K - 1)) to first
+      // order in 1/K, which with the factor below is 1 for f = 1 and f (K - 3)/(K - 1) for small f.
+      const double f = std::max(0.0, 1 - std::pow(float_accumulation * e.reference[i], 2) / v);
+      noisy += f * (1 + 2.0 / (e.seeds - 3) * f * f);
       squares += d * d;
       noise += v;
       total += e.reference[i];
@@ -36,7 +39,7 @@ PixelStatistics pixel_statistics(const Evidence& e) {
   if (count == 0 || !(total > 0)) return result;
   const double mean = total / count, seeds = e.seeds;
   result.chi2_per_pixel = chi2 / count * (seeds - 3) / (seeds - 1);
-  result.chi2_expected = noisy / count;
+  result.chi2_expected = noisy / count * (seeds - 3) / (seeds - 1);
   result.chi2_pixels = static_cast<std::uint64_t>(count / 3);
   result.rms_rel = std::sqrt(squares / count) / mean;
   result.noise_rms_rel = std::sqrt(noise / count) / mean;
