@@ -91,4 +91,16 @@ std::optional<LightPainter::Curvature> LightPainter::curvature(std::uint32_t x, 
   return Curvature{(f_xx + f_yy) / 24.0, size > 0 ? bend / size : bend > 0 ? 1.0 : 0.0};
 }
 
+// Against each neighbour that shows the same: of light that changes by a part s, in whatever power of the distance to where it ends, f_xx /
+// f is about s^2, and the centre errs by s^2 / 24.
+bool LightPainter::is_level(std::uint32_t x, std::uint32_t y) const {
+  constexpr double most = 0.15;
+  const std::size_t pixel = index(x, y);
+  const auto level = [&](std::size_t n) {
+    return known_[n] == 0 || survey_.key(n) != survey_.key(pixel) || largest(centre_[n] - centre_[pixel]) <= most * largest(centre_[pixel]);
+  };
+  return (x == 0 || level(pixel - 1)) && (x + 1 >= options_.width || level(pixel + 1)) && (y == 0 || level(pixel - options_.width)) &&
+         (y + 1 >= options_.height || level(pixel + options_.width));
+}
+
 }  // namespace etendue::rendering

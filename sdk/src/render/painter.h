@@ -69,6 +69,7 @@ class LightPainter {
   Measured sampled(std::uint32_t x, std::uint32_t y, const Surroundings& around, const std::optional<SurfacePoint>& centre,
                    RayCounts& counts) const;
   std::optional<Curvature> curvature(std::uint32_t x, std::uint32_t y) const;
+  bool is_level(std::uint32_t x, std::uint32_t y) const;
   std::size_t index(std::uint32_t x, std::uint32_t y) const { return std::size_t{y} * options_.width + x; }
   std::uint64_t seed(std::size_t pixel, std::uint64_t purpose) const;
 

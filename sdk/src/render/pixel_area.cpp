@@ -118,8 +118,8 @@ LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, do
   // With g = |f_xx / f| the next terms are of the order g^2: g^2 / 340 here, g^2 / 4320 for the rule of 2 x 2.
   constexpr double gentle = 0.01, steep = 0.1;
   const std::optional<Curvature> bend = curvature(x, y);
-  // Beside an edge the second differences are missing. A costly light has noise enough in the reference to hide g / 24.
-  if ((bend && bend->relative < gentle) || (!bend && known_[pixel] != 0 && !cheap)) {
+  // Beside an edge the second differences are missing. A costly light that hardly changes from pixel to pixel needs none.
+  if ((bend && bend->relative < gentle) || (!bend && known_[pixel] != 0 && !cheap && is_level(x, y))) {
     out.value += (centre_[pixel] + (bend ? bend->correction : Rgb{})) * beta;
     out.bound = static_cast<double>(centre_bound_[pixel]) * beta;
     return out;
