@@ -5,6 +5,8 @@
 #include <exception>
 #include <string_view>
 
+#include "etendue/dialect.h"
+
 #include "check_data.h"
 #include "container.h"
 #include "nodes.h"
@@ -41,6 +43,8 @@ class GltfImporter final : public Importer {
       if (options.need == Need::everything) gltf::check_data(**asset);
       gltf::name_unrepresented(**asset);
       gltf::Nodes(**asset, imported.scene).read_default_scene();
+      if (const auto unitless = suspected_compat_lights((*asset)->model().asset.generator, imported.scene.lights))
+        (*asset)->warning(unitless->code, unitless->text + "; " + unitless->hint, unitless->where.pointer);
       imported.diagnostics = (*asset)->take_diagnostics();
       (*asset)->count_skipped();
       imported.stats = (*asset)->stats;

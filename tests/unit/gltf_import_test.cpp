@@ -170,6 +170,22 @@ TEST(GltfImport, PointLightIsIntensityTimesColour) {
   EXPECT_FALSE(validate(imported->scene).has_errors()) << all_text(validate(imported->scene));
 }
 
+// 54 from Blender's unitless mode is a lamp of 680 W without the 683 lm/W: read as written, with a warning.
+TEST(GltfImport, UnitlessLightsOfBlenderWarn) {
+  const Folder folder;
+  GltfBuilder gltf = with_punctual({{"type", "point"}, {"intensity", 54}});
+  const auto warned = [&] {
+    const auto imported = read_gltf(gltf, folder);
+    EXPECT_EQ(imported->scene.lights.at(0).emission.value, gltf.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"]);
+    return all_text(imported->diagnostics).find("LIGHTS_LOOK_UNITLESS") != std::string::npos;
+  };
+  EXPECT_FALSE(warned());
+  gltf.json["asset"]["generator"] = "Khronos glTF Blender I/O v4.0.44";
+  EXPECT_TRUE(warned());
+  gltf.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 54351.4;
+  EXPECT_FALSE(warned());
+}
+
 TEST(GltfImport, SpotPointsAlongMinusZWithoutScale) {
   const Folder folder;
   GltfBuilder gltf = with_punctual({{"type", "spot"}, {"intensity", 10}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}});
