@@ -41,23 +41,23 @@ std::optional<Diagnostic> suspected_compat_lights(std::string_view generator, st
 
 Result<std::vector<SpreadRow>> interoperability_spread(double flux_lm, const SpotShape& spot) {
   struct Asked {
-    Dialect dialect;
     const char* program;
     const char* unit;
-    bool reflector;
     const char* divides_by;
+    Dialect dialect;
+    bool reflector;
   };
   static constexpr Asked asked[] = {
-      {Dialect::blender, "Blender, its glTF exporter", "W", false, "683 lm/W, then 4 pi"},
-      {Dialect::hdrp, "Unity HDRP, reflector off", "lm", false, "4 pi"},
-      {Dialect::frostbite, "Frostbite", "lm", false, "pi"},
-      {Dialect::filament, "Filament, SPOT", "lm", false, "pi"},
-      {Dialect::godot, "Godot", "lm", false, "pi"},
-      {Dialect::threejs, "three.js, power", "lm", false, "pi"},
-      {Dialect::filament, "Filament, FOCUSED_SPOT", "lm", true, "the outer cone"},
-      {Dialect::hdrp, "Unity HDRP, reflector on", "lm", true, "the outer cone"},
-      {Dialect::unreal, "Unreal Engine", "lm", false, "the outer cone"},
-      {Dialect::pbrt, "pbrt, power", "lm", false, "its smoothstep from 5 degrees inside the cone"},
+      {"Blender, its glTF exporter", "W", "683 lm/W, then 4 pi", Dialect::blender, false},
+      {"Unity HDRP, reflector off", "lm", "4 pi", Dialect::hdrp, false},
+      {"Frostbite", "lm", "pi", Dialect::frostbite, false},
+      {"Filament, SPOT", "lm", "pi", Dialect::filament, false},
+      {"Godot", "lm", "pi", Dialect::godot, false},
+      {"three.js, power", "lm", "pi", Dialect::threejs, false},
+      {"Filament, FOCUSED_SPOT", "lm", "the outer cone", Dialect::filament, true},
+      {"Unity HDRP, reflector on", "lm", "the outer cone", Dialect::hdrp, true},
+      {"Unreal Engine", "lm", "the outer cone", Dialect::unreal, false},
+      {"pbrt, power", "lm", "its smoothstep from 5 degrees inside the cone", Dialect::pbrt, false},
   };
   std::vector<SpreadRow> rows;
   for (const Asked& a : asked) {
