@@ -1,6 +1,7 @@
 #include "etendue/quantity_text.h"
 
 #include "camera_text.h"
+#include "etendue/srgb.h"
 
 #include <array>
 #include <charconv>
@@ -25,11 +26,7 @@ Result<Written> take_hex(Cursor cursor) {
   const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
   if (digits.size() != 6 || status != std::errc() || end != digits.data() + 6)
     return cursor.error("COLOUR_INVALID", fmt::format("expected six hexadecimal digits such as #ffb46b, found \"{}\"", cursor.rest()));
-  // IEC 61966-2-1.
-  const auto linear = [&](int shift) {
-    const double encoded = (code >> shift & 0xFFU) / 255.0;
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-  };
+  const auto linear = [&](int shift) { return srgb_to_linear((code >> shift & 0xFFU) / 255.0); };
   return Written{Rgb{linear(16), linear(8), linear(0)}};
 }
 
