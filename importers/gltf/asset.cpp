@@ -12,6 +12,7 @@
 #include "check_document.h"
 #include "container.h"
 #include "mapped_file.h"
+#include "meshopt.h"
 #include "repairs.h"
 #include "structure.h"
 #include "uri.h"
@@ -252,8 +253,24 @@ Result<SharedBytes> Asset::view(int index) {
   if (index < 0 || static_cast<std::size_t>(index) >= model_.bufferViews.size())
     return failure("UNRESOLVED_REFERENCE", fmt::format("there is no bufferView {}", index), pointer);
   const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(index)];
-  auto bytes = part_of_buffer(view.buffer, view.byteOffset, view.byteLength, pointer);
+  const Json* meshopt = meshopt_is_built() ? extension(pointer, "EXT_meshopt_compression") : nullptr;
+  auto bytes = meshopt != nullptr ? decoded_view(*meshopt, view.byteLength, pointer)
+                                  : part_of_buffer(view.buffer, view.byteOffset, view.byteLength, pointer);
   if (bytes) views_.emplace(index, *bytes);
+  return bytes;
+}
+
+Result<SharedBytes> Asset::decoded_view(const Json& meshopt, std::size_t expected, const std::string& view) {
+  const std::string pointer = view + "/extensions/EXT_meshopt_compression";
+  const auto whole = [&](const char* key, double otherwise) { return std::clamp(number_or(meshopt, key, otherwise), -1.0, 2147483647.0); };
+  const double offset = whole("byteOffset", 0), length = whole("byteLength", 0);
+  if (!(offset >= 0 && length >= 1)) return failure("MESHOPT_INVALID", "expected the place of the compressed bytes", pointer);
+  const auto source =
+      part_of_buffer(static_cast<int>(whole("buffer", -1)), static_cast<std::size_t>(offset), static_cast<std::size_t>(length), pointer);
+  if (!source) return source.error();
+  auto bytes = decode_meshopt(*this, meshopt, *source, pointer);
+  if (bytes && bytes->size() != expected)
+    return failure("MESHOPT_INVALID", fmt::format("expected {} bytes, as the bufferView says, found {}", expected, bytes->size()), pointer);
   return bytes;
 }
 

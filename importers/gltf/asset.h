@@ -18,6 +18,8 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace etendue::gltf {
@@ -62,6 +64,10 @@ class Asset {
   Stats stats;
   void count_skipped();  // into stats: the bytes of buffers that nobody asked for
 
+  // What the scene has taken up, by its JSON pointer, for Scene::carried.
+  void take(const std::string& pointer) { taken_.insert(pointer); }
+  bool is_taken(const std::string& pointer) const { return taken_.contains(pointer); }
+
  private:
   Asset() = default;
   // False: nothing can be read; why not is in the diagnostics.
@@ -70,6 +76,7 @@ class Asset {
   Error stopped();
   void load_model();
   Result<SharedBytes> open_buffer(const nlohmann::json& buffer, bool first, const std::string& pointer);
+  Result<SharedBytes> decoded_view(const nlohmann::json& meshopt, std::size_t expected, const std::string& view);
   Result<SharedBytes> part_of_buffer(int buffer, std::size_t offset, std::size_t length, const std::string& pointer);
 
   std::filesystem::path file_, folder_;
@@ -80,6 +87,7 @@ class Asset {
   SchemaFindings schema_;
   std::map<int, SharedBytes> buffers_, views_;
   std::uint64_t buffer_bytes_read_ = 0;
+  std::unordered_set<std::string> taken_;
   std::optional<JsonDocument> text_;  // where each value stands: lines in a .gltf, bytes in a GLB
   bool is_glb_ = false;
   std::size_t json_offset_ = 0;

@@ -43,6 +43,7 @@ Result<ImageRef> read_image(Asset& asset, const nlohmann::json& source, const st
 std::optional<std::uint32_t> Materials::image(int index) {
   if (const auto found = images_.find(index); found != images_.end()) return found->second;
   const std::string pointer = fmt::format("/images/{}", index);
+  asset_.take(pointer);
   const nlohmann::json::json_pointer place(pointer);
   std::optional<std::uint32_t> result;
   if (asset_.json().contains(place) && asset_.json().at(place).is_object()) {

@@ -7,10 +7,10 @@
 
 #include "etendue/dialect.h"
 
+#include "carried.h"
 #include "check_data.h"
 #include "container.h"
 #include "nodes.h"
-#include "unrepresented.h"
 
 namespace etendue {
 namespace {
@@ -41,10 +41,11 @@ class GltfImporter final : public Importer {
       imported.scene.file = file.string();
       imported.scene.format = "gltf";
       if (options.need == Need::everything) gltf::check_data(**asset);
-      gltf::name_unrepresented(**asset);
+      gltf::name_unshown(**asset);
       gltf::Nodes(**asset, imported.scene).read_default_scene();
       if (const auto unitless = suspected_compat_lights((*asset)->model().asset.generator, imported.scene.lights))
         (*asset)->warning(unitless->code, unitless->text + "; " + unitless->hint, unitless->where.pointer);
+      gltf::carry(**asset, imported.scene);
       imported.diagnostics = (*asset)->take_diagnostics();
       (*asset)->count_skipped();
       imported.stats = (*asset)->stats;

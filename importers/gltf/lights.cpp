@@ -6,12 +6,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "uri.h"
+
 namespace etendue::gltf {
 namespace {
 
 using Json = nlohmann::json;
 
-const Json* light_at(Asset& asset, const char* extension, int index, std::string& pointer) {
+const Json* light_at(const Asset& asset, const char* extension, int index, std::string& pointer) {
   pointer = fmt::format("/extensions/{}/lights/{}", extension, index);
   const Json::json_pointer place(pointer);
   return index >= 0 && asset.json().contains(place) && asset.json().at(place).is_object() ? &asset.json().at(place) : nullptr;
@@ -42,11 +44,33 @@ std::optional<Shape> spot_shape(Asset& asset, const Json& source, const std::str
   return SpotShape{inner, std::min(outer, pi / 2)};
 }
 
+int light_index(const Json& use) { return static_cast<int>(std::clamp(number_or(use, "light", -1), -1.0, 2147483647.0)); }
+
+// A photometric file: named, or its text inside the asset.
+Result<PhotometricShape> profile_of(Asset& asset, const Json& source, const std::string& pointer) {
+  if (source.contains("bufferView") == source.contains("uri"))
+    return asset.failure("ONE_OF_MISMATCH", "expected either uri or bufferView", pointer);
+  if (source.contains("bufferView")) {
+    auto bytes = asset.view(static_cast<int>(number_or(source, "bufferView", -1)));
+    if (!bytes) return bytes.error();
+    return PhotometricShape{"", std::move(*bytes)};
+  }
+  const std::string uri = text_or(source, "uri", "");
+  if (is_data_uri(uri)) {
+    auto data = decode_data_uri(uri, asset.options().max_bytes);
+    if (!data) return asset.failure(data.error().code, data.error().text, pointer + "/uri");
+    return PhotometricShape{"", SharedBytes(std::move(data->bytes))};
+  }
+  const auto path = file_inside(asset.folder(), uri);
+  if (!path) return asset.failure(path.error().code, path.error().text, pointer + "/uri");
+  return PhotometricShape{path->string(), {}};
+}
+
 }  // namespace
 
-std::optional<Light> punctual_light(Asset& asset, int index, const Transform& node_to_world) {
+std::optional<Light> punctual_light(Asset& asset, const Json& use, const Transform& node_to_world) {
   std::string pointer;
-  const Json* source = light_at(asset, "KHR_lights_punctual", index, pointer);
+  const Json* source = light_at(asset, "KHR_lights_punctual", light_index(use), pointer);
   if (source == nullptr) return std::nullopt;
   Light light = common_light(*source, pointer, node_to_world);
   const std::string type = text_or(*source, "type", "");
@@ -74,9 +98,9 @@ std::optional<Light> punctual_light(Asset& asset, int index, const Transform& no
   return light;
 }
 
-std::optional<Light> area_light(Asset& asset, int index, const Transform& node_to_world) {
+std::optional<Light> area_light(Asset& asset, const Json& use, const Transform& node_to_world) {
   std::string pointer;
-  const Json* source = light_at(asset, "EXT_lights_area", index, pointer);
+  const Json* source = light_at(asset, "EXT_lights_area", light_index(use), pointer);
   if (source == nullptr) return std::nullopt;
   Light light = common_light(*source, pointer, node_to_world);
   const std::string type = text_or(*source, "type", "");
@@ -96,6 +120,53 @@ std::optional<Light> area_light(Asset& asset, int index, const Transform& node_t
   } else {
     return std::nullopt;  // reported by the schema's check
   }
+  return light;
+}
+
+// The file's nadir goes along the node's -Z, as our lights emit. `multiplier` and `color` scale the file's candelas; the node's scale does
+// not.
+std::optional<Light> ies_light(Asset& asset, const Json& use, const Transform& node_to_world) {
+  std::string pointer;
+  const Json* source = light_at(asset, "EXT_lights_ies", light_index(use), pointer);
+  if (source == nullptr) return std::nullopt;
+  auto shape = profile_of(asset, *source, pointer);
+  if (!shape) {
+    asset.error(shape.error());
+    return std::nullopt;
+  }
+  Light light = common_light(use, pointer, node_to_world);
+  light.name = text_or(*source, "name", "");
+  light.shape = std::move(*shape);
+  light.filter = light.filter * number_or(use, "multiplier", 1);
+  return light;
+}
+
+std::vector<int> image_based_cube(Asset& asset, int index) {
+  std::string pointer;
+  const Json* source = light_at(asset, "EXT_lights_image_based", index, pointer);
+  const Json::json_pointer finest("/specularImages/0");
+  if (source == nullptr || !source->contains(finest) || !source->at(finest).is_array() || source->at(finest).size() != 6) return {};
+  std::vector<int> images;
+  for (const Json& image : source->at(finest))
+    if (image.is_number_integer()) images.push_back(image.get<int>());
+  asset.warning("NOT_SHOWN", "an environment in the form of a cube: a reference, from which no light comes in pictures", pointer);
+  return images;
+}
+
+Light image_based_light(Asset& asset, int index, std::vector<std::uint32_t> faces) {
+  std::string pointer;
+  const Json& source = *light_at(asset, "EXT_lights_image_based", index, pointer);
+  Light light;
+  light.name = text_or(source, "name", "environment");
+  light.source = pointer;
+  EnvironmentShape sky;
+  sky.cube = std::move(faces);
+  light.shape = std::move(sky);
+  const double intensity = number_or(source, "intensity", 1);
+  light.filter = {intensity, intensity, intensity};
+  const Quat turn{number_or(source, "rotation", 0, 0), number_or(source, "rotation", 1, 0), number_or(source, "rotation", 2, 0),
+                  number_or(source, "rotation", 3, 1)};
+  light.transform = Transform::from_trs({}, turn).rigid();
   return light;
 }
 

@@ -6,12 +6,18 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace etendue::gltf {
 
-// Light `index` of KHR_lights_punctual or EXT_lights_area at a node; errors are reported and give none.
-std::optional<Light> punctual_light(Asset& asset, int index, const Transform& node_to_world);
-std::optional<Light> area_light(Asset& asset, int index, const Transform& node_to_world);
+// Lights as nodes refer to them: `use` is the extension's object there. Errors are reported and give none.
+std::optional<Light> punctual_light(Asset& asset, const nlohmann::json& use, const Transform& node_to_world);
+std::optional<Light> area_light(Asset& asset, const nlohmann::json& use, const Transform& node_to_world);
+std::optional<Light> ies_light(Asset& asset, const nlohmann::json& use, const Transform& node_to_world);
+
+// Light `index` of EXT_lights_image_based: the images of its finest cube, six or none; and the light with them as images of the scene.
+std::vector<int> image_based_cube(Asset& asset, int index);
+Light image_based_light(Asset& asset, int index, std::vector<std::uint32_t> faces);
 
 // A primitive with an emissive material: one light that is the surface as well (Light::surface_material). `mesh` is its index in the
 // scene; where the transform is no rotation with scales along the mesh's own axes, a copy in world space is appended and used.

@@ -35,6 +35,7 @@ Materials::Entry Materials::read(int material) {
     out.double_sided = false;
     return entry;
   }
+  asset_.take(fmt::format("/materials/{}", material));
   const tinygltf::Material& source = asset_.model().materials[static_cast<std::size_t>(material)];
   const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
   const std::string pointer = fmt::format("/materials/{}", material), pbr_pointer = pointer + "/pbrMetallicRoughness";

@@ -22,6 +22,8 @@ class Materials {
   };
   // -1 is glTF's default material.
   const Entry& at(int material);
+  // Index into Scene::images; none if it is broken (reported).
+  std::optional<std::uint32_t> image(int image);
 
  private:
   Entry read(int material);
@@ -31,7 +33,6 @@ class Materials {
   std::optional<Texture> texture(const nlohmann::json& object, const std::string& pointer, const char* key, Encoding encoding);
   std::optional<NormalMap> normal_map(const nlohmann::json& object, const std::string& pointer, const char* key);
   std::optional<std::uint32_t> image_of(int texture);
-  std::optional<std::uint32_t> image(int image);
   void choose_uv_set(Entry& entry, const std::string& pointer);
 
   Asset& asset_;

@@ -4,6 +4,7 @@
 #include "asset.h"
 #include "materials.h"
 #include "meshes.h"
+#include "node_tree.h"
 
 #include <set>
 #include <string>
@@ -18,19 +19,20 @@ class Nodes {
   void read_default_scene();
 
  private:
-  std::vector<int> roots();
-  bool is_forest();
   void visit(int node, const Transform& parent_to_world, int depth);
-  std::optional<Transform> local_transform(int node);
+  bool is_hidden(int node) const;
   void add_camera(int node, const Transform& to_world);
   void add_lights(int node, const Transform& to_world);
+  void add_environment();
   void add_mesh(int node, const Transform& to_world);
+  void add_primitive(int node, std::size_t primitive, const Pose& pose, const Transform& to_world);
   void add_light(Light light, const std::string& node_name);
   bool has_orientation(const Transform& to_world, const char* what, const std::string& pointer);
-  std::string name_of(int node) const;
+  bool wants(Need need) const { return has(asset_.options().need, need); }
 
   Asset& asset_;
   Scene& scene_;
+  NodeTree tree_;
   Materials materials_;
   Meshes meshes_;
   std::set<std::string> light_names_;

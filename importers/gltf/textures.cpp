@@ -63,6 +63,7 @@ std::optional<Texture> Materials::texture(const Json& object, const std::string&
   const tinygltf::Model& model = asset_.model();
   const double index = number_or(*info, "index", -1);
   if (!(index >= 0 && index < static_cast<double>(model.textures.size()))) return std::nullopt;
+  asset_.take(fmt::format("/textures/{}", static_cast<int>(index)));
   const auto image_index = image_of(static_cast<int>(index));
   if (!image_index) return std::nullopt;
 

@@ -3,6 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "etendue/camera.h"
+#include "etendue/intensity_web.h"
 
 namespace etendue::cli {
 namespace {
@@ -31,8 +37,8 @@ std::string describe_shape(const Shape& shape) {
     std::string operator()(const TubeShape& s) { return fmt::format(" {} m, radius {} m", number(s.length), number(s.radius)); }
     std::string operator()(const LineShape& s) { return fmt::format(" {} m", number(s.length)); }
     std::string operator()(const MeshShape&) { return ""; }
-    std::string operator()(const PhotometricShape& s) { return " " + s.file; }
-    std::string operator()(const EnvironmentShape& s) { return s.image ? " map" : " constant"; }
+    std::string operator()(const PhotometricShape& s) { return s.embedded ? " embedded" : " " + s.file; }
+    std::string operator()(const EnvironmentShape& s) { return s.image ? " map" : !s.cube.empty() ? " cube" : " constant"; }
   } text;
   return name_of(shape) + std::visit(text, shape);
 }
@@ -74,6 +80,38 @@ const char* model_name(const SurfaceModel& model) {
   return names[model.index()];
 }
 
+// The factors of a model, as authored.
+using Parameters = std::vector<std::pair<const char*, std::variant<Rgb, double>>>;
+struct ParametersOf {
+  Parameters operator()(const Lambert& m) const { return {{"base_colour", m.base_colour}}; }
+  Parameters operator()(const Principled& m) const {
+    return {{"base_colour", m.base_colour}, {"metallic", m.metallic}, {"roughness", m.roughness}, {"specular", m.specular}};
+  }
+  Parameters operator()(const Standard& m) const {
+    return {{"base_colour", m.base_colour}, {"metal", m.metal}, {"roughness", m.roughness}, {"reflectance", m.reflectance}};
+  }
+  Parameters operator()(const Conductor& m) const { return {{"eta", m.eta}, {"k", m.k}, {"alpha", m.alpha}}; }
+  Parameters operator()(const MetalRough& m) const {
+    Parameters all = {{"base_colour", m.base_colour}, {"metallic", m.metallic}, {"roughness", m.roughness}};
+    if (m.ior != MetalRough{}.ior) all.emplace_back("ior", m.ior);
+    return all;
+  }
+  Parameters operator()(const SpecularGlossiness& m) const {
+    return {{"diffuse", m.diffuse}, {"specular", m.specular}, {"glossiness", m.glossiness}};
+  }
+};
+
+std::string rgb_text(const Rgb& rgb) {
+  if (rgb.x == rgb.y && rgb.y == rgb.z) return number(rgb.x);
+  return fmt::format("{} {} {}", number(rgb.x), number(rgb.y), number(rgb.z));
+}
+
+// What a photometric file emits as it is, before colour, filter and a stated flux.
+std::string web_text(const PhotometricShape& shape) {
+  const Result<IntensityWeb> web = shape.distribution ? IntensityWeb::of(*shape.distribution) : Result<IntensityWeb>(Error{});
+  return web ? fmt::format("  up to {:.6g} cd, {:.6g} lm", web->max_cd(), web->flux_lm()) : "";
+}
+
 std::string image_name(const Scene& scene, const Texture& texture) {
   if (texture.image >= scene.images.size()) return "?";
   const ImageRef& image = scene.images[texture.image];
@@ -91,6 +129,21 @@ std::string describe(const Light& light) {
   text += describe_colour(light.colour);
   if (light.two_sided) text += ", two-sided";
   if (light.range_m) text += fmt::format(", range {} m", number(*light.range_m));
+  return text;
+}
+
+std::string resolved_text(const Scene& scene, const Light& light) {
+  if (const auto* photometric = std::get_if<PhotometricShape>(&light.shape)) return web_text(*photometric);
+  const Result<Resolved> resolved = resolve(light, mesh_area_of(scene, light));
+  if (!resolved) return "";
+  static constexpr const char* units[] = {"cd", "cd/m2", "lx", "cd"};
+  const double y = luminance_of(resolved->rgb);
+  std::string text = fmt::format("  = {} {}", number(y), units[static_cast<int>(resolved->kind)]);
+  if (resolved->flux_lm > 0) text += fmt::format(", {} lm", number(resolved->flux_lm));
+  // A reflected-light meter's reading of the surface; an incident-light meter's where the light is stated as what arrives.
+  if (resolved->kind == Resolved::Kind::luminance && y > 0) text += fmt::format(", EV {:.4g}", ev100_of_luminance(y));
+  if (const auto incident = ev100_of_illuminance(y, {}); resolved->kind == Resolved::Kind::illuminance && incident)
+    text += fmt::format(", EV {:.4g} incident", *incident);
   return text;
 }
 
@@ -116,6 +169,13 @@ Json to_json(const Scene& scene, const Light& light) {
 
 std::string describe(const Scene& scene, const Material& material) {
   std::string text = model_name(material.model);
+  for (const auto& [name, value] : std::visit(ParametersOf{}, material.model)) {
+    const auto* rgb = std::get_if<Rgb>(&value);
+    text += fmt::format(", {} {}", name, rgb != nullptr ? rgb_text(*rgb) : number(std::get<double>(value)));
+  }
+  if (const double emitted = luminance_of(material.emissive); emitted > 0) text += fmt::format(", emits {} cd/m2", number(emitted));
+  if (material.alpha_cutoff) text += fmt::format(", holes where alpha < {}", number(*material.alpha_cutoff));
+  if (material.blended) text += ", blended";
   for (const Unshown& unshown : unshown_of(material)) text += fmt::format(", {}", unshown.what);
   for_each_texture(material,
                    [&](const char* role, const Texture& texture) { text += fmt::format(", {} {}", role, image_name(scene, texture)); });
@@ -125,11 +185,28 @@ std::string describe(const Scene& scene, const Material& material) {
 
 Json to_json(const Scene& scene, const Material& material) {
   Json json = {{"name", material.name}, {"model", model_name(material.model)}, {"double_sided", material.double_sided}};
+  for (const auto& [name, value] : std::visit(ParametersOf{}, material.model)) {
+    const auto* rgb = std::get_if<Rgb>(&value);
+    json["parameters"][name] = rgb != nullptr ? to_json(*rgb) : Json(std::get<double>(value));
+  }
+  for (const Unshown& unshown : unshown_of(material)) json["not_in_pictures"].push_back(unshown.what);
+  if (const double emitted = luminance_of(material.emissive); emitted > 0) json["luminance_cd_m2"] = emitted;
+  if (material.alpha_cutoff) json["alpha_cutoff"] = *material.alpha_cutoff;
+  if (material.blended) json["blended"] = true;
   for_each_texture(material, [&](const char* role, const Texture& texture) {
     json["textures"][role] = {{"image", image_name(scene, texture)}, {"encoding", texture.encoding == Encoding::srgb ? "srgb" : "linear"}};
   });
   if (!material.source.empty()) json["pointer"] = material.source;
   return json;
+}
+
+std::string describe(const Camera& camera) {
+  std::string text = fmt::format("{:.4g} deg high", in_degrees(camera.vfov_rad));
+  if (camera.aspect > 0) text += fmt::format(", aspect {:.4g}", camera.aspect);
+  if (camera.ev100) text += fmt::format(", EV {}", number(*camera.ev100));
+  if (camera.near_m) text += fmt::format(", near {} m", number(*camera.near_m));
+  if (camera.far_m) text += fmt::format(", far {} m", number(*camera.far_m));
+  return text;
 }
 
 Json to_json(const Camera& camera) {
@@ -138,6 +215,10 @@ Json to_json(const Camera& camera) {
                {"direction", to_json(-camera.transform.columns[2])},
                {"vfov_deg", in_degrees(camera.vfov_rad)}};
   if (camera.ev100) json["ev100"] = *camera.ev100;
+  if (camera.aspect > 0) json["aspect"] = camera.aspect;
+  if (camera.near_m) json["near_m"] = *camera.near_m;
+  if (camera.far_m) json["far_m"] = *camera.far_m;
+  if (!camera.source.empty()) json["pointer"] = camera.source;
   return json;
 }
 

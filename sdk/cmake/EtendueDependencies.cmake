@@ -95,6 +95,10 @@ if(NOT embree_FOUND)
   etendue_missing("Embree (3 or 4)" "libembree-dev")
 endif()
 
+# Optional: without them compressed meshes of glTF are not decoded.
+find_package(draco QUIET)
+find_package(meshoptimizer QUIET)
+
 if(ETENDUE_TESTS)
   find_package(GTest QUIET)
   if(NOT GTest_FOUND)

@@ -1,0 +1,73 @@
+#include "meshopt.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#ifdef ETENDUE_MESHOPT
+#include <meshoptimizer.h>
+#endif
+
+namespace etendue::gltf {
+
+#ifdef ETENDUE_MESHOPT
+
+namespace {
+
+// The extension's rules, which the library takes for granted.
+const char* fault_of(const std::string& mode, const std::string& filter, std::size_t stride, std::size_t count) {
+  if (count < 1) return "expected a count of at least 1";
+  if (mode == "ATTRIBUTES") {
+    if (stride < 4 || stride > 256 || stride % 4 != 0) return "expected a byteStride of 4 to 256, a multiple of 4";
+    if (filter == "OCTAHEDRAL" && stride != 4 && stride != 8) return "expected a byteStride of 4 or 8 for OCTAHEDRAL";
+    if (filter == "QUATERNION" && stride != 8) return "expected a byteStride of 8 for QUATERNION";
+    const bool known = filter == "NONE" || filter == "OCTAHEDRAL" || filter == "QUATERNION" || filter == "EXPONENTIAL";
+    return known ? nullptr : "expected the filter NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL";
+  }
+  if (mode != "TRIANGLES" && mode != "INDICES") return "expected the mode ATTRIBUTES, TRIANGLES or INDICES";
+  if (stride != 2 && stride != 4) return "expected a byteStride of 2 or 4 for indices";
+  if (filter != "NONE") return "expected no filter for indices";
+  return mode == "TRIANGLES" && count % 3 != 0 ? "expected a multiple of 3 indices" : nullptr;
+}
+
+bool decode(const std::string& mode, const std::string& filter, std::size_t stride, std::size_t count, const SharedBytes& from,
+            std::uint8_t* to) {
+  if (mode == "TRIANGLES") return meshopt_decodeIndexBuffer(to, count, stride, from.data(), from.size()) == 0;
+  if (mode == "INDICES") return meshopt_decodeIndexSequence(to, count, stride, from.data(), from.size()) == 0;
+  if (meshopt_decodeVertexBuffer(to, count, stride, from.data(), from.size()) != 0) return false;
+  if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(to, count, stride);
+  if (filter == "QUATERNION") meshopt_decodeFilterQuat(to, count, stride);
+  if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(to, count, stride);
+  return true;
+}
+
+}  // namespace
+
+bool meshopt_is_built() { return true; }
+
+Result<SharedBytes> decode_meshopt(const Asset& asset, const nlohmann::json& extension, const SharedBytes& source,
+                                   const std::string& pointer) {
+  const double authored_stride = number_or(extension, "byteStride", 0), authored_count = number_or(extension, "count", 0);
+  const std::string mode = text_or(extension, "mode", ""), filter = text_or(extension, "filter", "NONE");
+  const double bytes = authored_stride * authored_count, limit = static_cast<double>(asset.options().max_decoded);
+  if (!(authored_stride >= 0 && authored_count >= 0 && bytes <= limit))
+    return asset.failure("LIMIT_EXCEEDED", fmt::format("{} bytes that a bufferView decodes to are over max_decoded, {}", bytes, limit),
+                         pointer);
+  const auto stride = static_cast<std::size_t>(authored_stride), count = static_cast<std::size_t>(authored_count);
+  if (const char* fault = fault_of(mode, filter, stride, count)) return asset.failure("MESHOPT_INVALID", fault, pointer);
+  std::vector<std::uint8_t> out(stride * count);
+  if (!decode(mode, filter, stride, count, source, out.data()))
+    return asset.failure("MESHOPT_INVALID", "the compressed bytes cannot be decoded", pointer);
+  return SharedBytes(std::move(out));
+}
+
+#else
+
+bool meshopt_is_built() { return false; }
+
+Result<SharedBytes> decode_meshopt(const Asset& asset, const nlohmann::json&, const SharedBytes&, const std::string& pointer) {
+  return asset.failure("NOT_BUILT", "this build decodes no EXT_meshopt_compression: meshoptimizer was not there", pointer);
+}
+
+#endif
+
+}  // namespace etendue::gltf

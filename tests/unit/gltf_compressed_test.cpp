@@ -1,0 +1,217 @@
+// Meshes that Draco's and meshoptimizer's own encoders have compressed.
+#include <cmath>
+
+#include "gltf_builder.h"
+#include "importers/gltf/draco_mesh.h"
+#include "importers/gltf/meshopt.h"
+
+#ifdef ETENDUE_DRACO
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#endif
+#ifdef ETENDUE_MESHOPT
+#include <meshoptimizer.h>
+#endif
+
+namespace etendue::test {
+namespace {
+
+// A wavy sheet of n x n vertices over the unit square.
+struct Sheet {
+  std::vector<float> positions;
+  std::vector<std::uint32_t> indices;
+};
+Sheet sheet(std::uint32_t n) {
+  Sheet s;
+  for (std::uint32_t y = 0; y < n; ++y)
+    for (std::uint32_t x = 0; x < n; ++x) {
+      const float u = static_cast<float>(x) / static_cast<float>(n - 1), v = static_cast<float>(y) / static_cast<float>(n - 1);
+      s.positions.insert(s.positions.end(), {u, v, 0.1F * std::sin(7 * u + 3 * v)});
+    }
+  for (std::uint32_t y = 0; y + 1 < n; ++y)
+    for (std::uint32_t x = 0; x + 1 < n; ++x) {
+      const std::uint32_t a = y * n + x;
+      s.indices.insert(s.indices.end(), {a, a + 1, a + n, a + 1, a + n + 1, a + n});
+    }
+  return s;
+}
+
+double area_of_triangles(const Sheet& s) {
+  Mesh mesh;
+  for (std::size_t i = 0; i + 2 < s.positions.size(); i += 3)
+    mesh.positions.push_back({s.positions[i], s.positions[i + 1], s.positions[i + 2]});
+  mesh.indices = s.indices;
+  return area_of(mesh, {});
+}
+
+#ifdef ETENDUE_MESHOPT
+
+// A bufferView of `count` elements that the file holds compressed, its uncompressed buffer a fallback without bytes.
+int compressed_view(GltfBuilder& gltf, const std::vector<unsigned char>& encoded, std::size_t stride, std::size_t count, const char* mode,
+                    const char* filter = "NONE") {
+  const int stored = gltf.view(encoded);
+  const Json source = gltf.json["bufferViews"][static_cast<std::size_t>(stored)];
+  gltf.json["bufferViews"].push_back({{"buffer", 1},
+                                      {"byteLength", stride * count},
+                                      {"extensions",
+                                       {{"EXT_meshopt_compression",
+                                         {{"buffer", 0},
+                                          {"byteOffset", source["byteOffset"]},
+                                          {"byteLength", source["byteLength"]},
+                                          {"byteStride", stride},
+                                          {"count", count},
+                                          {"mode", mode},
+                                          {"filter", filter}}}}}});
+  return static_cast<int>(gltf.json["bufferViews"].size()) - 1;
+}
+
+struct MeshoptFile {
+  GltfBuilder gltf;
+  int positions = 0, indices = 0;
+};
+MeshoptFile meshopt_file(const Sheet& s, const char* mode) {
+  const std::size_t vertices = s.positions.size() / 3;
+  std::vector<unsigned char> encoded(meshopt_encodeVertexBufferBound(vertices, 12));
+  encoded.resize(meshopt_encodeVertexBuffer(encoded.data(), encoded.size(), s.positions.data(), vertices, 12));
+  MeshoptFile file;
+  file.positions = compressed_view(file.gltf, encoded, 12, vertices, "ATTRIBUTES");
+  const bool triangles = std::string(mode) == "TRIANGLES";
+  std::vector<unsigned char> order(triangles ? meshopt_encodeIndexBufferBound(s.indices.size(), vertices)
+                                             : meshopt_encodeIndexSequenceBound(s.indices.size(), vertices));
+  order.resize(triangles ? meshopt_encodeIndexBuffer(order.data(), order.size(), s.indices.data(), s.indices.size())
+                         : meshopt_encodeIndexSequence(order.data(), order.size(), s.indices.data(), s.indices.size()));
+  file.indices = compressed_view(file.gltf, order, 4, s.indices.size(), mode);
+  Json& json = file.gltf.json;
+  json["extensionsUsed"] = json["extensionsRequired"] = {"EXT_meshopt_compression"};
+  json["accessors"] =
+      Json::array({{{"bufferView", file.positions},
+                    {"componentType", 5126},
+                    {"count", vertices},
+                    {"type", "VEC3"},
+                    {"min", {0, 0, -1}},
+                    {"max", {1, 1, 1}}},
+                   {{"bufferView", file.indices}, {"componentType", 5125}, {"count", s.indices.size()}, {"type", "SCALAR"}}});
+  json["accessors"][0].erase("min");
+  json["accessors"][0].erase("max");
+  json["meshes"] = Json::array({{{"primitives", Json::array({{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}})}}});
+  json["nodes"] = Json::array({{{"mesh", 0}}});
+  json["buffers"] = Json::array(
+      {{{"byteLength", file.gltf.bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(file.gltf.bytes)}},
+       {{"byteLength", 12 * vertices + 4 * s.indices.size()}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}});
+  return file;
+}
+
+// meshoptimizer's streams are lossless: bit for bit what went in; triangles may begin at another corner.
+TEST(GltfCompressed, MeshoptComesBackAsItWas) {
+  const Sheet s = sheet(40);
+  for (const char* mode : {"TRIANGLES", "INDICES"}) {
+    SCOPED_TRACE(mode);
+    const Folder folder;
+    const auto imported = read_gltf(meshopt_file(s, mode).gltf, folder);
+    ASSERT_TRUE(imported.ok());
+    EXPECT_FALSE(imported->diagnostics.has_errors()) << all_text(imported->diagnostics);
+    ASSERT_EQ(imported->scene.meshes.size(), 1u);
+    const Mesh& mesh = imported->scene.meshes[0];
+    ASSERT_EQ(mesh.positions.size() * 3, s.positions.size());
+    EXPECT_EQ(std::memcmp(mesh.positions.data(), s.positions.data(), s.positions.size() * sizeof(float)), 0);
+    ASSERT_EQ(mesh.indices.size(), s.indices.size());
+    for (std::size_t i = 0; i < s.indices.size(); i += 3) {
+      const std::uint32_t a = s.indices[i], b = s.indices[i + 1], c = s.indices[i + 2];
+      const std::array<std::uint32_t, 3> found = {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+      using Corners = std::array<std::uint32_t, 3>;
+      ASSERT_TRUE(found == (Corners{a, b, c}) || found == (Corners{b, c, a}) || found == (Corners{c, a, b})) << i;
+    }
+  }
+}
+
+TEST(GltfCompressed, BrokenMeshoptIsAnError) {
+  const Sheet s = sheet(8);
+  const char* place = "/bufferViews/1/extensions/EXT_meshopt_compression";
+  const auto broken = [&](const char* key, const Json& value, const char* code) {
+    const Folder folder;
+    MeshoptFile file = meshopt_file(s, "TRIANGLES");
+    file.gltf.json["bufferViews"][1]["extensions"]["EXT_meshopt_compression"][key] = value;
+    const auto imported = read_gltf(file.gltf, folder);
+    ASSERT_TRUE(imported.ok());
+    EXPECT_TRUE(says(imported->diagnostics, Severity::error, code, place)) << key;
+  };
+  broken("byteLength", 10, "MESHOPT_INVALID");
+  broken("byteStride", 16, "MESHOPT_INVALID");
+  broken("count", 2000000000, "LIMIT_EXCEEDED");
+}
+
+#endif
+
+#ifdef ETENDUE_DRACO
+
+GltfBuilder draco_file(const Sheet& s, int bits) {
+  draco::TriangleSoupMeshBuilder builder;
+  builder.Start(static_cast<int>(s.indices.size() / 3));
+  const int attribute = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  for (std::size_t f = 0; f < s.indices.size() / 3; ++f) {
+    const auto corner = [&](std::size_t k) { return s.positions.data() + 3 * s.indices[3 * f + k]; };
+    builder.SetAttributeValuesForFace(attribute, draco::FaceIndex(static_cast<std::uint32_t>(f)), corner(0), corner(1), corner(2));
+  }
+  const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
+  draco::Encoder encoder;
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, bits);
+  draco::EncoderBuffer buffer;
+  EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
+
+  GltfBuilder gltf;
+  const int view = gltf.view(std::vector<char>(buffer.data(), buffer.data() + buffer.size()));
+  gltf.json["extensionsUsed"] = gltf.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  gltf.json["accessors"] = Json::array({{{"componentType", 5126}, {"count", mesh->num_points()}, {"type", "VEC3"}},
+                                        {{"componentType", 5125}, {"count", s.indices.size()}, {"type", "SCALAR"}}});
+  const int id = static_cast<int>(mesh->GetNamedAttribute(draco::GeometryAttribute::POSITION)->unique_id());
+  gltf.json["meshes"] = Json::array(
+      {{{"primitives",
+         Json::array({{{"attributes", {{"POSITION", 0}}},
+                       {"indices", 1},
+                       {"extensions", {{"KHR_draco_mesh_compression", {{"bufferView", view}, {"attributes", {{"POSITION", id}}}}}}}}})}}});
+  gltf.json["nodes"] = Json::array({{{"mesh", 0}}});
+  return gltf;
+}
+
+// Quantised to q bits, a coordinate is off by at most half a step of the largest extent, here 1: 1/2 / (2^q - 1).
+TEST(GltfCompressed, DracoComesBackWithinItsQuantisation) {
+  const Sheet s = sheet(40);
+  constexpr int bits = 16;
+  const Folder folder;
+  const auto imported = read_gltf(draco_file(s, bits), folder);
+  ASSERT_TRUE(imported.ok());
+  EXPECT_FALSE(imported->diagnostics.has_errors()) << all_text(imported->diagnostics);
+  ASSERT_EQ(imported->scene.meshes.size(), 1u);
+  const Mesh& mesh = imported->scene.meshes[0];
+  ASSERT_EQ(mesh.indices.size(), s.indices.size());
+  const double step = 1 / (std::pow(2.0, bits) - 1);
+  for (const Vec3f& p : mesh.positions) {
+    // u and v are multiples of 1/39, z follows from them: its slope is at most .7 and .3.
+    const double u = std::round(p.x * 39) / 39, v = std::round(p.y * 39) / 39;
+    ASSERT_NEAR(p.x, u, 0.51 * step);
+    ASSERT_NEAR(p.y, v, 0.51 * step);
+    ASSERT_NEAR(p.z, 0.1 * std::sin(7 * u + 3 * v), 0.51 * step + 1e-6);
+  }
+  // Every triangle there once and the right way round: the areas add up. Lengths are off by a step, edges are 1/39 long.
+  EXPECT_NEAR(area_of(mesh, {}) / area_of_triangles(s), 1, 4 * 39 * step);
+}
+
+TEST(GltfCompressed, BrokenDracoIsAnError) {
+  const Folder folder;
+  GltfBuilder gltf = draco_file(sheet(8), 12);
+  for (std::size_t i = 40; i < gltf.bytes.size(); ++i) gltf.bytes[i] = static_cast<std::uint8_t>(i * 37);
+  const auto imported = read_gltf(gltf, folder);
+  ASSERT_TRUE(imported.ok());
+  EXPECT_TRUE(imported->diagnostics.has_errors());
+  // A header that announces more than anybody should make room for.
+  ImportOptions few;
+  few.max_items = 50;
+  const auto limited = read_gltf(draco_file(sheet(20), 12), folder, few);
+  ASSERT_TRUE(limited.ok());
+  EXPECT_TRUE(limited->diagnostics.has_errors());
+}
+
+#endif
+
+}  // namespace
+}  // namespace etendue::test
