@@ -127,6 +127,7 @@ std::string describe(const Light& light) {
   if (light.emission.given != Emission::Given::as_file)
     text += fmt::format(", {} {}", number(light.emission.value), unit_of(light.emission).text);
   text += describe_colour(light.colour);
+  if (light.filter != Rgb{1, 1, 1}) text += fmt::format(", filter {}", rgb_text(light.filter));
   if (light.two_sided) text += ", two-sided";
   if (light.range_m) text += fmt::format(", range {} m", number(*light.range_m));
   return text;

@@ -1,4 +1,5 @@
 // Meshes that Draco's and meshoptimizer's own encoders have compressed.
+#include <algorithm>
 #include <cmath>
 
 #include "gltf_builder.h"
@@ -34,6 +35,18 @@ Sheet sheet(std::uint32_t n) {
       s.indices.insert(s.indices.end(), {a, a + 1, a + n, a + 1, a + n + 1, a + n});
     }
   return s;
+}
+
+// An accessor of the sheet's positions, wherever their bytes are.
+Json positions_of(const Sheet& s) {
+  Json accessor = {{"componentType", 5126}, {"count", s.positions.size() / 3}, {"type", "VEC3"}};
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::vector<float> column;
+    for (std::size_t i = c; i < s.positions.size(); i += 3) column.push_back(s.positions[i]);
+    accessor["min"].push_back(*std::min_element(column.begin(), column.end()));
+    accessor["max"].push_back(*std::max_element(column.begin(), column.end()));
+  }
+  return accessor;
 }
 
 double area_of_triangles(const Sheet& s) {
@@ -83,16 +96,9 @@ MeshoptFile meshopt_file(const Sheet& s, const char* mode) {
   file.indices = compressed_view(file.gltf, order, 4, s.indices.size(), mode);
   Json& json = file.gltf.json;
   json["extensionsUsed"] = json["extensionsRequired"] = {"EXT_meshopt_compression"};
-  json["accessors"] =
-      Json::array({{{"bufferView", file.positions},
-                    {"componentType", 5126},
-                    {"count", vertices},
-                    {"type", "VEC3"},
-                    {"min", {0, 0, -1}},
-                    {"max", {1, 1, 1}}},
-                   {{"bufferView", file.indices}, {"componentType", 5125}, {"count", s.indices.size()}, {"type", "SCALAR"}}});
-  json["accessors"][0].erase("min");
-  json["accessors"][0].erase("max");
+  json["accessors"] = Json::array(
+      {positions_of(s), {{"bufferView", file.indices}, {"componentType", 5125}, {"count", s.indices.size()}, {"type", "SCALAR"}}});
+  json["accessors"][0]["bufferView"] = file.positions;
   json["meshes"] = Json::array({{{"primitives", Json::array({{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}})}}});
   json["nodes"] = Json::array({{{"mesh", 0}}});
   json["buffers"] = Json::array(
@@ -161,8 +167,8 @@ GltfBuilder draco_file(const Sheet& s, int bits) {
   GltfBuilder gltf;
   const int view = gltf.view(std::vector<char>(buffer.data(), buffer.data() + buffer.size()));
   gltf.json["extensionsUsed"] = gltf.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-  gltf.json["accessors"] = Json::array({{{"componentType", 5126}, {"count", mesh->num_points()}, {"type", "VEC3"}},
-                                        {{"componentType", 5125}, {"count", s.indices.size()}, {"type", "SCALAR"}}});
+  gltf.json["accessors"] = Json::array({positions_of(s), {{"componentType", 5125}, {"count", s.indices.size()}, {"type", "SCALAR"}}});
+  gltf.json["accessors"][0]["count"] = mesh->num_points();
   const int id = static_cast<int>(mesh->GetNamedAttribute(draco::GeometryAttribute::POSITION)->unique_id());
   gltf.json["meshes"] = Json::array(
       {{{"primitives",

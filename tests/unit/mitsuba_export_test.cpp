@@ -67,7 +67,7 @@ Scene table() {
   bulb.range_m = 4;
   bulb.falloff = Falloff::gltf;
   scene.lights.push_back(bulb);
-  scene.cameras.push_back({"view", {{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}, {0, 1, 4}}, 0.5 * pi, {}, 0, {}});
+  scene.cameras.push_back({"view", {{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}, {0, 1, 4}}, 0.5 * pi, {}, 0, {}, {}, {}});
   return scene;
 }
 

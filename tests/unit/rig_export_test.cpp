@@ -486,7 +486,7 @@ TEST_F(RigExport, ReportsWhatIsLost) {
   l.name = "twin";
   l.emission = {Emission::Given::flux, 1, false, {}, {}, {}};
   scene.lights = {l, l};
-  scene.meshes.push_back({"empty", {{0, 0, 0}}, {}, {}, {}, ""});
+  scene.meshes.push_back({"empty", {{0, 0, 0}}, {}, {}, {}, {}, {}, ""});
   scene.objects.push_back({"ghost", MeshGeometry{0}, no_index, {}, ""});
   const Exported exported = write(scene);
   std::string losses;

@@ -561,7 +561,7 @@ class TwoThings : public Importer {
     skin.base_colour_texture = Texture{};
     skin.source = "/materials/0";
     s.materials.push_back(skin);
-    s.meshes.push_back({"tri", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {0, 1, 2}, "/meshes/0"});
+    s.meshes.push_back({"tri", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {}, {}, {0, 1, 2}, "/meshes/0"});
     s.objects.push_back({"wall", MeshGeometry{0}, 0, Transform::from_trs({0, 0, 1}, {}), "/nodes/0"});
     Light lamp;
     lamp.name = "lamp";
