@@ -132,7 +132,9 @@ void Nodes::add_light(Light light, const std::string& node_name) {
 void Nodes::add_mesh(int index, const Transform& to_world) {
   const tinygltf::Model& model = asset_.model();
   const tinygltf::Node& node = model.nodes[static_cast<std::size_t>(index)];
-  if (node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= model.meshes.size() || !(wants(Need::meshes) || wants(Need::lights))) return;
+  // Materials and their pictures are those that the scene's primitives use.
+  const bool wanted = wants(Need::meshes) || wants(Need::lights) || wants(Need::materials) || wants(Need::images);
+  if (!wanted || node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= model.meshes.size()) return;
   const Pose pose = wants(Need::meshes) ? pose_of(asset_, tree_, index) : Pose{};
   // A skinned mesh stands where its joints are; its node's own transform does not move it (3.7.3.3).
   const Transform mesh_to_world = pose.joints.empty() ? to_world : Transform{};

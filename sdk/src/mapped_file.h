@@ -15,7 +15,7 @@ namespace etendue {
 // Errors: FILE_UNREADABLE, FILE_TOO_LARGE.
 Result<SharedBytes> map_file(const std::filesystem::path& file, std::uint64_t max_bytes);
 
-// What is known about how the bytes of a mapping will be looked at: all of them soon, one after the other. Without it the system reads no
+// All of these bytes of a mapping will be looked at soon: the system reads them ahead. Without it, and beyond them, it reads no
 // further than asked.
 void will_read_all(const SharedBytes& bytes);
 
