@@ -72,7 +72,8 @@ class FaceTable {
   std::vector<double> values_;
 };
 
-// The smallest faces whose light is off by at most .5 % of the peak anywhere, up to 1024 texels.
+// The smallest faces whose light is off by at most .5 % of the peak anywhere, up to 1024 texels. Where a table ends brightly, its edge is
+// blurred by a texel of any size: more of them are no better.
 struct Cube {
   int texels = 0;
   double error_cd = 0, flux_lm = 0;
@@ -82,6 +83,7 @@ Cube cube_of(const IntensityWeb& web) {
   constexpr double wanted = 5e-3;
   constexpr int fewest = 128, most = 1024;
   Cube cube;
+  double coarser_cd = HUGE_VAL;
   for (int texels = fewest; texels <= most; texels *= 2) {
     cube = {texels, 0, 0, {}};
     for (const Face& face : faces) {
@@ -89,7 +91,8 @@ Cube cube_of(const IntensityWeb& web) {
       cube.flux_lm += table.flux();
       cube.error_cd = std::max(cube.error_cd, table.error(web, face));
     }
-    if (cube.error_cd <= wanted * web.max_cd()) break;
+    if (cube.error_cd <= wanted * web.max_cd() || cube.error_cd > 0.9 * coarser_cd) break;
+    coarser_cd = cube.error_cd;
   }
   return cube;
 }
