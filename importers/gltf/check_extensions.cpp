@@ -76,7 +76,6 @@ void check_unused(Checks& checks) {
                                     "/textures",
                                     "/extensions/KHR_lights_punctual/lights",
                                     "/extensions/KHR_materials_variants/variants"};
-  const Path root;
   for (const char* array : arrays) {
     const Json::json_pointer place{std::string(array)};
     if (!checks.root.contains(place) || !checks.root.at(place).is_array()) continue;
