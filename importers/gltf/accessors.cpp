@@ -140,10 +140,11 @@ Result<Elements> elements_in(Asset& asset, int view, const Layout& layout, const
   const tinygltf::BufferView& record = asset.model().bufferViews[static_cast<std::size_t>(view)];
   const std::size_t stride = record.byteStride != 0 ? record.byteStride : layout.element_size;
   if (stride < layout.element_size)
-    return asset.failure("ACCESSOR_INVALID_STRIDE",
+    return asset.failure("ACCESSOR_SMALL_BYTESTRIDE",
                          fmt::format("expected a byteStride of at least {} in bufferView {}, found {}", layout.element_size, view, stride),
                          pointer);
-  if ((record.byteOffset % layout.component_size + layout.offset) % layout.component_size != 0 || stride % layout.component_size != 0)
+  // Components are copied from wherever they are: tolerance costs nothing here.
+  if (!asset.options().tolerant && (record.byteOffset + layout.offset) % layout.component_size != 0)
     return asset.failure("ACCESSOR_TOTAL_OFFSET_ALIGNMENT", fmt::format("components are not aligned to {} bytes", layout.component_size),
                          pointer);
   // offset + (count - 1) stride + element_size <= size, without a sum or product that could overflow.

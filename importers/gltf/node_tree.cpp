@@ -111,7 +111,7 @@ std::optional<Transform> NodeTree::read_local(int index) {
     // The validator's threshold: what normalised 8-bit numbers can miss by.
     if (!(std::abs(norm - 1) <= 0.00769)) {
       asset_.error("ROTATION_NON_UNIT", fmt::format("expected a quaternion of length 1, found {}", norm), pointer + "/rotation");
-      return std::nullopt;
+      if (!asset_.options().tolerant || !(norm > 0)) return std::nullopt;
     }
     rotation = {rotation.x / norm, rotation.y / norm, rotation.z / norm, rotation.w / norm};
   }

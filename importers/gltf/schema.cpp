@@ -93,9 +93,10 @@ class Checker {
       result.extensions.push_back({name, here.text()});
       if (!it->is_object()) {
         wrong_type(*it, Kind::object, here);
-      } else if (!declared_.contains(name)) {
-        findings_.error("UNDECLARED_EXTENSION", fmt::format("expected \"{}\" in extensionsUsed", name), here);
-      } else if (const std::string full = type + "." + name; properties_of(full) != nullptr) {
+        continue;
+      }
+      if (!declared_.contains(name)) findings_.error("UNDECLARED_EXTENSION", fmt::format("expected \"{}\" in extensionsUsed", name), here);
+      if (const std::string full = type + "." + name; properties_of(full) != nullptr) {
         if (value.size() > 1 && (name == "KHR_materials_unlit" || name == "KHR_materials_pbrSpecularGlossiness"))
           findings_.warning("MULTIPLE_EXTENSIONS", fmt::format("{} may contradict the other extensions of this object", name), here);
         object(*it, full, here);
