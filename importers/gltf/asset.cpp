@@ -237,13 +237,16 @@ void Asset::add(Diagnostic diagnostic) {
 }
 
 void Asset::error(std::string code, std::string text, const std::string& pointer) {
+  if (errors_ > max_findings) return;  // not listed any more: its place is not looked for
   add({Severity::error, std::move(code), std::move(text), at(pointer), {}});
 }
 void Asset::error(const Error& error) { add(to_diagnostic(error)); }
 void Asset::warning(std::string code, std::string text, const std::string& pointer) {
+  if (others_ > max_findings) return;  // not listed any more: its place is not looked for
   add({Severity::warning, std::move(code), std::move(text), at(pointer), {}});
 }
 void Asset::note(std::string code, std::string text, const std::string& pointer) {
+  if (others_ > max_findings) return;  // not listed any more: its place is not looked for
   add({Severity::note, std::move(code), std::move(text), at(pointer), {}});
 }
 

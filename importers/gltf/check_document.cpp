@@ -21,12 +21,6 @@ std::pair<int, int> version_of(const std::string& text) {
 
 }  // namespace
 
-bool Checks::declares(const char* extension) const {
-  for (const Json& name : array_at(root, "extensionsUsed"))
-    if (name == extension) return true;
-  return false;
-}
-
 bool check_version(const Json& root, Findings& findings) {
   const Path path, asset = path / "asset", version = asset / "version", minimum = asset / "minVersion";
   if (!root.contains("asset")) {
@@ -81,7 +75,9 @@ bool check_version(const Json& root, Findings& findings) {
 
 SchemaFindings check_document(Json& root, bool is_glb, const ImportOptions& options, Findings& findings) {
   SchemaFindings schema = check_schema(root, options.max_items, findings);
-  Checks checks{root, findings, schema, Records(root), is_glb, options.max_depth, {}, {}, true};
+  Checks checks{root, findings, schema, Records(root), is_glb, options.max_depth, {}, {}, true, {}};
+  for (const Json& name : array_at(root, "extensionsUsed"))
+    if (name.is_string()) checks.declared.insert(name.get<std::string>());
   check_extensions(checks);
   check_buffers(checks);
   check_accessors(checks);

@@ -6,6 +6,9 @@
 #include "records.h"
 #include "schema.h"
 
+#include <set>
+#include <string>
+
 namespace etendue::gltf {
 
 struct Checks {
@@ -21,7 +24,9 @@ struct Checks {
   std::vector<int> depths;
   bool is_forest = true;
 
-  bool declares(const char* extension) const;  // in extensionsUsed
+  std::set<std::string> declared;  // extensionsUsed
+
+  bool declares(const std::string& extension) const { return declared.contains(extension); }
 };
 
 void check_extensions(Checks& checks);
