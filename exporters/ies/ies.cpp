@@ -12,7 +12,6 @@ namespace etendue {
 namespace {
 
 using photometric::eol;
-using photometric::number;
 using photometric::one_line;
 
 constexpr const char* tags[] = {"", "IESNA91", "IESNA:LM-63-1995", "IESNA:LM-63-2002", "IES:LM-63-2019"};

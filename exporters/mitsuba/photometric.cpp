@@ -66,7 +66,8 @@ class FaceTable {
  private:
   double centre(int i) const { return 1 - 2 * (i + 0.5) / texels_; }
   double at(int row, int column) const {
-    return values_[static_cast<std::size_t>(std::clamp(row, 0, texels_ - 1) * texels_ + std::clamp(column, 0, texels_ - 1))];
+    return values_[static_cast<std::size_t>(std::clamp(row, 0, texels_ - 1)) * static_cast<std::size_t>(texels_) +
+                   static_cast<std::size_t>(std::clamp(column, 0, texels_ - 1))];
   }
   int texels_;
   std::vector<double> values_;

@@ -128,14 +128,15 @@ std::optional<Transform> NodeTree::world(int node) {
     }
     way.push_back(at);
   }
-  for (auto at = way.rbegin(); at != way.rend(); ++at) {
-    const auto here = local(*at);
+  std::reverse(way.begin(), way.end());
+  for (const int at : way) {
+    const auto here = local(at);
     above = above && here ? std::optional(*above * *here) : std::nullopt;
     if (above && !is_finite(*above)) {
-      asset_.error("NODE_TRANSFORM_INVALID", "the product of the transforms down to this node is not finite", node_pointer(*at));
+      asset_.error("NODE_TRANSFORM_INVALID", "the product of the transforms down to this node is not finite", node_pointer(at));
       above.reset();
     }
-    worlds_.emplace(*at, above);
+    worlds_.emplace(at, above);
   }
   return above;
 }

@@ -96,7 +96,7 @@ class Checker {
         continue;
       }
       if (!declared_.contains(name)) findings_.error("UNDECLARED_EXTENSION", fmt::format("expected \"{}\" in extensionsUsed", name), here);
-      if (const std::string full = type + "." + name; properties_of(full) != nullptr) {
+      if (const std::string full = fmt::format("{}.{}", type, name); properties_of(full) != nullptr) {
         if (value.size() > 1 && (name == "KHR_materials_unlit" || name == "KHR_materials_pbrSpecularGlossiness"))
           findings_.warning("MULTIPLE_EXTENSIONS", fmt::format("{} may contradict the other extensions of this object", name), here);
         object(*it, full, here);

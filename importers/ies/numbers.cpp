@@ -42,7 +42,7 @@ bool Reader::read_first_record(IesRecord& record, IntensityGrid& grid, Counts& c
   }
   if (split && !repair("HEADER_RECORD_SPLIT", "expected the ten numbers on one line; read by their count", at[0])) return false;
 
-  const double room = static_cast<double>(numbers_.bytes_left() / 2 + 1);
+  const double room = 1 + std::floor(static_cast<double>(numbers_.bytes_left()) / 2);
   for (const std::size_t i : {3u, 4u}) {
     if (!whole(x[i], room))
       return fail("COUNT_INVALID", fmt::format("expected {} as a whole number that the file can hold, found {}", names[i], x[i]), at[i],

@@ -21,14 +21,14 @@ class Canvas {
     const int i = static_cast<int>(std::lround(x)), j = static_cast<int>(std::lround(y));
     if (i < 0 || j < 0 || i >= width() || j >= height()) return;
     static constexpr int bits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
-    cells_[static_cast<std::size_t>((j / 4) * columns_ + i / 2)] |= bits[j % 4][i % 2];
+    cells_[static_cast<std::size_t>(j / 4) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i / 2)] |= bits[j % 4][i % 2];
   }
   std::vector<std::string> lines() const {
     std::vector<std::string> lines;
     for (int j = 0; j < rows_; ++j) {
       std::string line;
       for (int i = 0; i < columns_; ++i) {
-        const int cell = cells_[static_cast<std::size_t>(j * columns_ + i)];
+        const int cell = cells_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)];
         // U+2800 and the dots in its low byte.
         line += cell == 0 ? std::string(" ")
                           : std::string{'\xE2', static_cast<char>(0xA0 | cell >> 6), static_cast<char>(0x80 | (cell & 0x3F))};
@@ -66,11 +66,12 @@ std::string polar_diagram(const IntensityWeb& web) {
   Canvas canvas(40, 20);
   const double radius = canvas.height() / 2.0 - 1, x0 = canvas.width() / 2.0 - 0.5, y0 = canvas.height() / 2.0 - 0.5;
   const double aspect = static_cast<double>(canvas.width()) / canvas.height();
-  for (double angle = 0; angle < 360; angle += 4)
+  for (int angle = 0; angle < 360; angle += 4)
     for (const double ring : {0.5, 1.0})
       canvas.dot(x0 + aspect * radius * ring * std::sin(angle * pi / 180), y0 + radius * ring * std::cos(angle * pi / 180));
   const auto curve = [&](double c, double side, double step) {
-    for (double gamma = 0; gamma <= 180; gamma += step) {
+    for (int i = 0; i * step <= 180; ++i) {
+      const double gamma = i * step;
       const double r = radius * web.at(c, gamma) / web.max_cd();
       if (r > 0) canvas.dot(x0 + side * aspect * r * std::sin(gamma * pi / 180), y0 + r * std::cos(gamma * pi / 180));
     }

@@ -57,7 +57,7 @@ std::vector<Picture> pictures_of(const Scene& scene) {
 std::string bytes_text(std::uint64_t bytes) {
   const auto x = static_cast<double>(bytes);
   if (bytes < 1000) return fmt::format("{} B", bytes);
-  return bytes < 1000 * 1000 ? fmt::format("{:.3g} kB", x / 1e3) : fmt::format("{:.3g} MB", x / 1e6);
+  return bytes < 1'000'000 ? fmt::format("{:.3g} kB", x / 1e3) : fmt::format("{:.3g} MB", x / 1e6);
 }
 
 std::string describe(const Picture& picture) {

@@ -64,8 +64,8 @@ void will_read_all(const SharedBytes& bytes) {
   if (!bytes || bytes.size() == 0) return;
   // madvise takes whole pages: from the beginning of the first one.
   const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
-  const auto first = reinterpret_cast<std::uintptr_t>(bytes.data()), start = first / page * page;
-  ::madvise(reinterpret_cast<void*>(start), bytes.size() + (first - start), MADV_WILLNEED);
+  const std::size_t before = reinterpret_cast<std::uintptr_t>(bytes.data()) % page;
+  ::madvise(const_cast<std::uint8_t*>(bytes.data() - before), bytes.size() + before, MADV_WILLNEED);
 }
 
 }  // namespace etendue

@@ -155,7 +155,7 @@ GltfBuilder draco_file(const Sheet& s, int bits) {
   builder.Start(static_cast<int>(s.indices.size() / 3));
   const int attribute = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
   for (std::size_t f = 0; f < s.indices.size() / 3; ++f) {
-    const auto corner = [&](std::size_t k) { return s.positions.data() + 3 * s.indices[3 * f + k]; };
+    const auto corner = [&](std::size_t k) { return s.positions.data() + std::size_t{3} * s.indices[3 * f + k]; };
     builder.SetAttributeValuesForFace(attribute, draco::FaceIndex(static_cast<std::uint32_t>(f)), corner(0), corner(1), corner(2));
   }
   const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
