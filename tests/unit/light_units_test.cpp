@@ -236,8 +236,8 @@ TEST(Accuracy, FrustumIsTheIntegralOverItsWindow) {
 
 // The closed forms of all three falloffs against quadrature over the angle, in the middle and in the ring.
 TEST(Accuracy, FluxOfShapedSpotsIsTheIntegral) {
-  for (const auto& [inner, outer] : {std::pair{0.0, 0.05}, {0.0, 0.5}, {0.3, 0.5}, {0.4999, 0.5}, {0.0, 1.5}, {1.0, pi}, {0.5, 0.5}}) {
-    const double ci = std::cos(inner), co = std::cos(outer);
+  for (const auto& spot : {SpotShape{0.0, 0.05}, {0.0, 0.5}, {0.3, 0.5}, {0.4999, 0.5}, {0.0, 1.5}, {1.0, pi}, {0.5, 0.5}}) {
+    const double inner = spot.inner_rad, outer = spot.outer_rad, ci = std::cos(inner), co = std::cos(outer);
     const auto flux_of = [&](const std::function<double(double)>& falloff) {
       const auto ring = [&](double t) {
         // cos t - cos o and cos i - cos o as products of sines: the quadrature is not to lose the digits that it checks.
@@ -248,7 +248,6 @@ TEST(Accuracy, FluxOfShapedSpotsIsTheIntegral) {
       };
       return integral([](double t) { return 2 * pi * std::sin(t); }, 0, inner, 50) + integral(ring, inner, outer, 200);
     };
-    const SpotShape spot{inner, outer};
     EXPECT_NEAR(solid_angle(spot, {.spot_falloff = SpotFalloff::hard})->si / flux_of([](double) { return 1; }), 1, 1e-12)
         << ci << ' ' << co;
     EXPECT_NEAR(solid_angle(spot)->si / flux_of([](double s) { return s * s; }), 1, 1e-12) << ci << ' ' << co;

@@ -43,7 +43,8 @@ LightPainter::Measured LightPainter::over_places(std::uint32_t x, std::uint32_t 
   Random pilot(seed(pixel, spread_purpose)), random(seed(pixel, place_purpose));
   Rgb sum, squares;
   for (int i = 0; i < pilot_places; ++i) {
-    const double u = (i % 4 + pilot.next()) / 4, v = (i / 4 + pilot.next()) / 2;
+    const int column = i % 4, row = i / 4;
+    const double u = (column + pilot.next()) / 4, v = (row + pilot.next()) / 2;
     const Rgb value = at(x + u, y + v, beta, counts).value;
     sum += value;
     squares += squared(value);
@@ -54,9 +55,10 @@ LightPainter::Measured LightPainter::over_places(std::uint32_t x, std::uint32_t 
   const double cells = static_cast<double>(side) * side;
   Measured out;
   for (int cell = 0; cell < side * side; ++cell) {
+    const int column = cell % side, row = cell / side;
     std::array<Rgb, 2> pair;
     for (Rgb& value : pair) {
-      const double u = (cell % side + random.next()) / side, v = (cell / side + random.next()) / side;
+      const double u = (column + random.next()) / side, v = (row + random.next()) / side;
       const Reflected here = at(x + u, y + v, beta, counts);
       value = here.value;
       out.bound += here.bound / (2 * cells);
@@ -93,7 +95,8 @@ LightPainter::Measured LightPainter::cubature(const Cell& cell, double beta, int
   Measured out;
   for (int quarter = 0; quarter < 4; ++quarter) {
     const double half = cell.side / 2;
-    const Measured part = cubature({cell.x + quarter % 2 * half, cell.y + quarter / 2 * half, half}, beta, halvings - 1, counts);
+    const int column = quarter % 2, row = quarter / 2;
+    const Measured part = cubature({cell.x + column * half, cell.y + row * half, half}, beta, halvings - 1, counts);
     out.value += part.value / 4.0;
     out.variance += part.variance / 16.0;
     out.bound += part.bound / 4;
