@@ -1,4 +1,5 @@
 #include "fixture.h"
+#include "source_dir.h"
 
 #include <cstdlib>
 
@@ -27,7 +28,7 @@ const Mitsuba* mitsuba() {
   static const Result<Mitsuba> found = [] {
     std::vector<std::filesystem::path> search;
     if (const char* given = std::getenv("ETENDUE_MITSUBA")) search.emplace_back(given);
-    search.push_back(std::filesystem::path(ETENDUE_SOURCE_DIR) / ".venv");
+    search.push_back(source_dir() / ".venv");
     return find_mitsuba({}, search);
   }();
   return found ? &*found : nullptr;

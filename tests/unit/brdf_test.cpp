@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "eval_protocol.h"
+#include "source_dir.h"
 
 namespace {
 
@@ -34,7 +35,7 @@ std::vector<std::vector<double>> rows_of(const std::string& file) {
 // Values of tests/mitsuba/brdf_values.py: committed ones, or others through the environment (tests/acceptance/brdf_against_mitsuba).
 std::vector<std::vector<double>> mitsuba_values(const std::string& model) {
   const char* other = std::getenv("ETENDUE_BRDF_VALUES");
-  return rows_of((other != nullptr ? std::string(other) : std::string(ETENDUE_SOURCE_DIR) + "/tests/data") + "/" + model + "_eval.csv");
+  return rows_of((other != nullptr ? std::string(other) : (source_dir() / "tests/data").string()) + "/" + model + "_eval.csv");
 }
 
 // Mitsuba computes in float32. Its rounding is largest where alpha is small: the half vector is exact to 6e-8, the lobe's exponent sees

@@ -1,6 +1,7 @@
 #include "etendue/dialect.h"
 
 #include "etendue/colour.h"
+#include "source_dir.h"
 
 #include <gtest/gtest.h>
 
@@ -147,7 +148,7 @@ TEST(Spread, OneLampInTenPrograms) {
   EXPECT_NEAR(rows.back().candela / rows.front().candela, 45, 0.5);
   EXPECT_NEAR(std::log2(rows.back().candela / rows.front().candela), 5.5, 0.05);
   // The documentation's table is made of these rows.
-  std::ifstream file(ETENDUE_SOURCE_DIR "/sdk/docs/dialects.md");
+  std::ifstream file(source_dir() / "sdk/docs/dialects.md");
   std::stringstream text;
   text << file.rdbuf();
   for (const SpreadRow& row : rows) {

@@ -5,6 +5,7 @@
 #include "gltf_builder.h"
 #include "importers/gltf/mapping.h"
 #include "importers/gltf/schema.h"
+#include "source_dir.h"
 
 namespace etendue::test {
 namespace {
@@ -40,7 +41,7 @@ Json carried_document(const Scene& scene) {
 }
 
 TEST(GltfCarried, EveryExtensionOfTheCorpusIsRepresentedCarriedOrNamed) {
-  const fs::path corpus = fs::path(ETENDUE_SOURCE_DIR) / ".." / "shared" / "corpus" / "gltf";
+  const fs::path corpus = source_dir() / ".." / "shared" / "corpus" / "gltf";
   if (!fs::exists(corpus)) GTEST_SKIP() << "../shared/corpus/gltf is not there";
   std::size_t occurrences = 0, carried = 0;
   for (const auto& entry : fs::recursive_directory_iterator(corpus)) {
@@ -136,7 +137,7 @@ TEST(GltfCarried, ARequiredExtensionThatIsNotShownIsAnError) {
 
 // The mapping of sdk/docs/gltf.md is the table that the importer follows.
 TEST(GltfCarried, TheTableIsTheDocumentedOne) {
-  std::ifstream stream(fs::path(ETENDUE_SOURCE_DIR) / "sdk/docs/gltf.md");
+  std::ifstream stream(source_dir() / "sdk/docs/gltf.md");
   const std::string page((std::istreambuf_iterator<char>(stream)), {});
   EXPECT_NE(page.find(gltf::mapping_table()), std::string::npos) << "sdk/docs/gltf.md should hold:\n" << gltf::mapping_table();
 }

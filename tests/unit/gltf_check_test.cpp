@@ -4,11 +4,12 @@
 #include <ostream>
 
 #include "gltf_builder.h"
+#include "source_dir.h"
 
 namespace etendue::test {
 namespace {
 
-const char* const asset_file = ETENDUE_SOURCE_DIR "/tests/fuzz/corpus/gltf/everything.gltf";
+const std::string asset_file = (source_dir() / "tests/fuzz/corpus/gltf/everything.gltf").string();
 Json everything() {
   std::ifstream stream(asset_file);
   return Json::parse(stream);

@@ -5,13 +5,14 @@
 #include <cstdlib>
 
 #include "gltf_builder.h"
+#include "source_dir.h"
 
 namespace etendue::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path corpus = fs::path(ETENDUE_SOURCE_DIR) / ".." / "shared" / "corpus" / "gltf";
+const fs::path corpus = source_dir() / ".." / "shared" / "corpus" / "gltf";
 
 std::vector<fs::path> assets_below(const fs::path& folder) {
   std::vector<fs::path> files;

@@ -5,6 +5,7 @@
 #include "etendue/picture.h"
 #include "exporters/mitsuba/environment_rows.h"
 #include "exporters/mitsuba/light_meshes.h"
+#include "source_dir.h"
 
 #include <gtest/gtest.h>
 
@@ -78,7 +79,7 @@ TEST_F(MitsubaExport, Golden) {
   options.lit = {0, 2};
   const Result<Exported> exported = write(table(), options);
   ASSERT_TRUE(exported.ok()) << exported.error().text;
-  const fs::path golden = fs::path(ETENDUE_SOURCE_DIR) / "tests/golden/mitsuba/table.xml";
+  const fs::path golden = source_dir() / "tests/golden/mitsuba/table.xml";
   if (std::getenv("ETENDUE_UPDATE_GOLDEN") != nullptr) fs::copy_file(folder / "scene.xml", golden, fs::copy_options::overwrite_existing);
   std::ifstream in(golden);
   EXPECT_EQ(text(), std::string(std::istreambuf_iterator<char>(in), {}));

@@ -9,6 +9,7 @@
 #include "etendue/intensity_web.h"
 #include "importers/eulumdat/eulumdat.h"
 #include "importers/ies/ies.h"
+#include "source_dir.h"
 
 namespace etendue {
 namespace {
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 using Row = std::map<std::string, std::string>;
 
 const fs::path& corpus() {
-  static const fs::path folder = fs::path(ETENDUE_SOURCE_DIR) / "../shared/corpus/photometry";
+  static const fs::path folder = source_dir() / "../shared/corpus/photometry";
   return folder;
 }
 

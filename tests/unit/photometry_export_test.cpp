@@ -10,6 +10,7 @@
 #include "importers/eulumdat/eulumdat.h"
 #include "importers/ies/ies.h"
 #include "photometry_builder.h"
+#include "source_dir.h"
 
 namespace etendue {
 namespace {
@@ -203,7 +204,7 @@ TEST(PhotometryTransform, ScalingReachesTheFlux) {
 
 // Every file of the corpus, written in its own format and version and read again.
 TEST(PhotometryExport, TheCorpusComesBackToTheLastBit) {
-  const fs::path corpus = fs::path(ETENDUE_SOURCE_DIR) / "../shared/corpus/photometry";
+  const fs::path corpus = source_dir() / "../shared/corpus/photometry";
   if (!fs::exists(corpus)) GTEST_SKIP() << "needs ../shared/corpus/photometry";
   std::size_t files = 0;
   for (const auto& entry : fs::directory_iterator(corpus)) {

@@ -10,6 +10,7 @@
 
 #include "importers/rig/rig.h"
 #include "importers/rig/rig_text.h"
+#include "source_dir.h"
 
 namespace etendue {
 namespace {
@@ -436,7 +437,7 @@ TEST_F(RigExport, IsDeterministic) {
 
 // tests/golden/every_light.rig.json is written by hand; what the exporter makes of it was looked through line by line.
 TEST_F(RigExport, Golden) {
-  const fs::path golden = fs::path(ETENDUE_SOURCE_DIR) / "tests" / "golden";
+  const fs::path golden = source_dir() / "tests" / "golden";
   const Result<Imported> imported = make_rig_importer(none_)->read(golden / "every_light.rig.json", {});
   ASSERT_TRUE(imported.ok()) << to_string(to_diagnostic(imported.error()));
   ASSERT_TRUE(imported->diagnostics.all().empty()) << told(imported->diagnostics);

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "importers/rig/rig_text.h"
+#include "source_dir.h"
 
 namespace etendue {
 namespace {
@@ -472,7 +473,7 @@ TEST(RigImport, SniffsTheKey) {
 
 // Every whole rig in the documentation is one.
 TEST(RigImport, ReadsTheDocumentation) {
-  std::ifstream stream(std::filesystem::path(ETENDUE_SOURCE_DIR) / "sdk" / "docs" / "rig.md");
+  std::ifstream stream(source_dir() / "sdk" / "docs" / "rig.md");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   constexpr std::string_view opening = "```json\n", closing = "```";
   int count = 0;
