@@ -9,6 +9,7 @@
 
 #include "bench.h"
 #include "etendue/io.h"
+#include "etendue/web_batch.h"
 #include "etendue/web_sampler.h"
 #include "importers/ies/ies.h"
 #include "photometry_builder.h"
@@ -85,6 +86,7 @@ struct Data {
   std::vector<WebAngles> angles;
   std::vector<Vec3d> directions;
   std::vector<Vec2d> squares;
+  std::vector<float> x{}, y{}, z{};  // of the directions
 };
 
 Data data_of(int planes, int angles) {
@@ -101,6 +103,9 @@ Data data_of(int planes, int angles) {
     d.directions.push_back({r * std::cos(phi), r * std::sin(phi), z});
     d.angles.push_back(angles_of(WebType::c, d.directions.back()));
     d.squares.push_back({uniform(random), uniform(random)});
+    d.x.push_back(static_cast<float>(d.directions.back().x));
+    d.y.push_back(static_cast<float>(d.directions.back().y));
+    d.z.push_back(static_cast<float>(d.directions.back().z));
   }
   return d;
 }
@@ -139,6 +144,14 @@ void rows(Bench& bench, const char* size, const Data& d) {
     for (const Vec3d& u : d.directions) sink += d.web.towards(u);
     keep(&sink);
   });
+  static std::list<WebBatch> batches;
+  const WebBatch* const batch = &batches.emplace_back(d.web);
+  vectors.contender("etendue, batch of floats", Kind::ours, "2e-6 of the peak, 1e-4 deg", [&d, batch] {
+    static std::vector<float> cd;
+    cd.resize(d.x.size());
+    sink += batch->towards(d.x, d.y, d.z, cd, 0) ? cd[0] : 0;
+    keep(cd.data());
+  });
   vectors.contender("acos, atan2, bisection, bilinear", Kind::peer, "", [&d] {
     for (const Vec3d& u : d.directions) sink += d.usual.towards(u);
     keep(&sink);
@@ -150,6 +163,22 @@ void rows(Bench& bench, const char* size, const Data& d) {
     for (const Vec2d& u : d.squares) sink += sampler->sample(u).cd;
     keep(&sink);
   });
+  // Without a sampler: uniform directions, kept in proportion to their intensity.
+  sampling.contender("rejection, acos, atan2, bilinear", Kind::peer, "", [&d, n] {
+    static std::minstd_rand random(1);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (std::size_t i = 0; i < n; ++i) {
+      Vec3d u;
+      double cd = 0;
+      do {
+        const double z = 2 * uniform(random) - 1, phi = 2 * pi * uniform(random), r = std::sqrt(1 - z * z);
+        u = {r * std::cos(phi), r * std::sin(phi), z};
+        cd = d.usual.towards(u);
+      } while (uniform(random) * d.web.max_cd() > cd);
+      sink += cd + u.x;
+    }
+    keep(&sink);
+  });
 }
 
 }  // namespace
@@ -157,7 +186,7 @@ void rows(Bench& bench, const char* size, const Data& d) {
 
 int main(int argc, char** argv) {
   using namespace etendue::bench;
-  static const Data small = data_of(37, 5), large = data_of(361, 263);
+  static const Data small = data_of(5, 37), large = data_of(361, 263);
   Bench bench;
   rows(bench, "5x37", small);
   rows(bench, "361x263", large);

@@ -44,31 +44,40 @@ class AngleAxis {
   const std::vector<double>& nodes() const { return nodes_; }
   double first() const { return start_; }
   double last() const { return end_; }
+  bool uniform() const { return uniform_; }  // nodes are first + i step to rounding
   // The interval that holds x, the nearest one if none does, and where x lies in it, 0 to 1.
   struct Place {
     std::uint32_t interval;
     double position;
   };
-  Place place(double x) const {
-    const double cell = (x - start_) * cells_per_unit_;
-    std::uint32_t i = cell > 0 ? (cell < last_cell_ ? static_cast<std::uint32_t>(cell) : static_cast<std::uint32_t>(last_cell_)) : 0;
-    if (uniform_) return {i, clamped((x - (start_ + i * step_)) * cells_per_unit_)};
-    if (nodes_.size() < 2) return {0, 0};
+  Place place(double x) const { return place_past(x - start_); }
+  // Of start + past.
+  Place place_past(double past) const {
+    const double cell = past * cells_per_unit_, held = cell > 0 ? cell : 0;
+    auto i = static_cast<std::uint32_t>(static_cast<std::int32_t>(held < last_cell_ ? held : last_cell_));
+    if (uniform_) return {i, clamped(cell - static_cast<std::int32_t>(i))};
+    if (intervals_.empty()) return {0, 0};
+    const double x = start_ + past;
     i = first_[i];
-    while (x >= nodes_[i + 1] && i < last_) ++i;
-    return {i, clamped((x - nodes_[i]) * inverse_width_[i])};
+    // Most cells hold the end of at most one interval, and whether x is beyond it is as good as random: no branch for that step.
+    i += x >= intervals_[i].upper ? 1 : 0;
+    while (x >= intervals_[i].upper) ++i;
+    return {i, position(i, x)};
   }
   std::uint32_t interval(double x) const { return place(x).interval; }
   // Where x lies in interval i.
-  double position(std::uint32_t i, double x) const { return clamped((x - nodes_[i]) * inverse_width_[i]); }
+  double position(std::uint32_t i, double x) const { return clamped((x - intervals_[i].lower) * intervals_[i].inverse_width); }
 
  private:
-  std::vector<double> nodes_, inverse_width_;
-  std::vector<std::uint32_t> first_;  // per cell of equal width, the interval of its lower end
+  struct Interval {
+    double lower, inverse_width, upper;  // the last one has no upper end
+  };
   static double clamped(double t) { return t > 0 ? (t < 1 ? t : 1) : 0; }
 
-  double start_ = 0, end_ = 0, step_ = 0, cells_per_unit_ = 0, last_cell_ = 0;
-  std::uint32_t last_ = 0;
+  std::vector<double> nodes_;
+  std::vector<Interval> intervals_;
+  std::vector<std::uint32_t> first_;  // per cell of equal width, the interval of its lower end
+  double start_ = 0, end_ = 0, cells_per_unit_ = 0, last_cell_ = 0;
   bool uniform_ = false;  // nodes are start + i step to rounding
 };
 
@@ -118,7 +127,7 @@ class IntensityWeb {
 
  private:
   double at_table(double polar_deg, double azimuth_deg) const;
-  double at_usual(double gamma_deg, double c_deg) const;
+  double at_usual(double gamma_deg, double past_deg) const;
   double plane_integral(std::size_t plane, double from_deg, double to_deg) const;
 
   WebType type_ = WebType::c;
@@ -132,6 +141,7 @@ class IntensityWeb {
   double flux_lm_ = 0, max_cd_ = 0;
   bool usual_ = false;                             // type C, linear in the angle
   std::size_t angles_ = 0;                         // polar nodes
+  double origin_deg_ = 0;                          // type C: the first plane, in the frame's C
   double half_deg_ = 1e300, quarter_deg_ = 1e300;  // type C: beyond which a mirror folds, from the first plane
 };
 

@@ -17,7 +17,7 @@ class WebSampler {
     double cd = 0;
   };
 
-  // Keeps a reference: the web must outlive it. 16 bytes a cell of the table beside it.
+  // Keeps a reference: the web must outlive it. 12 bytes a cell of the table beside it.
   explicit WebSampler(const IntensityWeb& web);
 
   Sample sample(const Vec2d& u) const;  // u in [0, 1)^2
@@ -32,15 +32,28 @@ class WebSampler {
   struct Polar {
     double angle_deg, sine, cosine;
   };
+  // An interval of the polar angle: its start and width, and the integrals of sin and of (theta - start) sin over it.
+  struct Interval {
+    double from_deg, width_rad, inverse_width, sine, cosine, end_sine, end_cosine, integral, first_moment;
+  };
+  // A density that is linear in the polar angle: its values at both ends of an interval, and the share that is to be below.
+  struct Part {
+    double a, b, share;
+  };
   std::array<double, 2> ends(const Cell& cell) const;  // mean of the cell's two planes at both polar angles
   double share_below(const Cell& cell, double polar_deg) const;
   Polar polar_for_share(const Cell& cell, double share) const;
+  static Polar polar_for_share(const Interval& interval, const Part& part);
+  static Polar bracketed(const Interval& interval, const Part& part);
 
   const IntensityWeb* web_;
-  std::vector<Polar> node_;                 // of the table's polar angles
-  std::size_t intervals_ = 0, planes_ = 0;  // of the table, minus one; rotational: one plane
-  std::vector<double> running_;             // flux of the cells before, over the total; one more than cells
-  std::vector<std::uint32_t> first_;        // for equal parts of [0, 1), the cell of their lower end
+  bool linear_;
+  int copies_;
+  double inverse_flux_ = 0;
+  std::vector<Interval> interval_;
+  std::uint32_t intervals_ = 0, planes_ = 0;  // of the table, minus one; rotational: one plane
+  std::vector<double> running_;               // flux of the cells before, over the total; one more than cells
+  std::vector<std::uint32_t> first_;          // for equal parts of [0, 1), the cell of their lower end
 };
 
 }  // namespace etendue

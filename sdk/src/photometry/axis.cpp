@@ -12,13 +12,13 @@ AngleAxis::AngleAxis(std::vector<double> nodes) : nodes_(std::move(nodes)) {
   end_ = nodes_.back();
   if (nodes_.size() < 2) return;
   const std::size_t intervals = nodes_.size() - 1;
-  last_ = static_cast<std::uint32_t>(intervals - 1);
-  for (std::size_t i = 0; i < intervals; ++i) inverse_width_.push_back(1 / (nodes_[i + 1] - nodes_[i]));
-  step_ = (end_ - start_) / static_cast<double>(intervals);
+  for (std::size_t i = 0; i < intervals; ++i) intervals_.push_back({nodes_[i], 1 / (nodes_[i + 1] - nodes_[i]), nodes_[i + 1]});
+  intervals_.back().upper = HUGE_VAL;
+  const double step = (end_ - start_) / static_cast<double>(intervals);
   uniform_ = true;
   for (std::size_t i = 0; i <= intervals; ++i) {
     constexpr double rounding = 1e-15;
-    uniform_ = uniform_ && std::abs(nodes_[i] - (start_ + static_cast<double>(i) * step_)) <= rounding * 720;
+    uniform_ = uniform_ && std::abs(nodes_[i] - (start_ + static_cast<double>(i) * step)) <= rounding * 720;
   }
   double narrowest = nodes_[1] - nodes_[0];
   for (std::size_t i = 0; i < intervals; ++i) narrowest = std::min(narrowest, nodes_[i + 1] - nodes_[i]);
@@ -31,7 +31,7 @@ AngleAxis::AngleAxis(std::vector<double> nodes) : nodes_(std::move(nodes)) {
   std::uint32_t interval = 0;
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const double lower = nodes_.front() + static_cast<double>(cell) / cells_per_unit_;
-    while (interval < last_ && nodes_[interval + 1] <= lower) ++interval;
+    while (intervals_[interval].upper <= lower) ++interval;
     first_[cell] = interval;
   }
 }

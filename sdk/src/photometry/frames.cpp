@@ -10,8 +10,8 @@
 namespace etendue {
 namespace {
 
-using photometry::atan2_deg;
 using photometry::sine_cosine_deg;
+using photometry::two_atan2_deg;
 
 // Of both legs; scaled where their squares would leave the range of a double.
 double leg(double a, double b) {
@@ -32,15 +32,19 @@ double turn_between(Orientation file, Orientation wanted) { return file == wante
 
 WebAngles angles_of(WebType type, const Vec3d& direction, const WebFrame& frame) {
   const double x = direction.x, y = frame.clockwise ? -direction.y : direction.y, z = direction.z;
+  photometry::Pair both{};
   switch (type) {
     case WebType::c:
-      return {atan2_deg(leg(x, y), -z), wrapped(atan2_deg(y, x) - frame.turn_deg)};
+      both = two_atan2_deg(leg(x, y), -z, y, x);
+      return {both[0], wrapped(both[1] - frame.turn_deg)};
     case WebType::a:
-      return {atan2_deg(x, leg(y, z)), atan2_deg(y, -z)};
+      both = two_atan2_deg(x, leg(y, z), y, -z);
+      break;
     case WebType::b:
+      both = two_atan2_deg(x, -z, y, leg(x, z));
       break;
   }
-  return {atan2_deg(x, -z), atan2_deg(y, leg(x, z))};
+  return {both[0], both[1]};
 }
 
 Vec3d direction_of(WebType type, const WebAngles& angles, const WebFrame& frame) {

@@ -19,20 +19,42 @@ double linear_share(double a, double b, double t) { return a + b > 0 ? t * (2 * 
 
 using photometry::degree;
 using photometry::SineCosine;
+using photometry::SineVersine;
 
-SineCosine sine_cosine(double x) { return x < 0.785 ? photometry::sine_cosine_small(x) : SineCosine{std::sin(x), std::cos(x)}; }
+SineVersine sine_versine(double x) { return x < 0.785 ? photometry::sine_versine_small(x) : SineVersine{std::sin(x), 1 - std::cos(x)}; }
+
+// Of theta = from + s, from sine and cosine of `from`.
+SineCosine turned(double sine, double cosine, const SineVersine& s) {
+  return {sine - sine * s.versine + cosine * s.sine, cosine - cosine * s.versine - sine * s.sine};
+}
+
+// Integrals over 0..s of sin(theta) and of s' sin(theta), theta = from + s':
+//   sin(from) sin(s) + cos(from) (1 - cos s)
+//   sin(from) (s sin s - (1 - cos s)) + cos(from) (sin s - s cos s)
+struct Moments {
+  double integral, first;
+};
+Moments moments(double sine, double cosine, double s, const SineVersine& t) {
+  return {sine * t.sine + cosine * t.versine, sine * (s * t.sine - t.versine) + cosine * (t.sine - s + s * t.versine)};
+}
 
 }  // namespace
 
-WebSampler::WebSampler(const IntensityWeb& web) : web_(&web), intervals_(web.polar().nodes().size() - 1) {
+WebSampler::WebSampler(const IntensityWeb& web)
+    : web_(&web),
+      linear_(web.interpolation() == Interpolation::linear),
+      copies_(web.copies()),
+      intervals_(static_cast<std::uint32_t>(web.polar().nodes().size() - 1)) {
   const std::vector<double>&x = web.polar().nodes(), &phi = web.azimuth().nodes();
-  planes_ = std::max<std::size_t>(phi.size() - 1, 1);
-  for (const double angle : x) {
-    const SineCosine t = photometry::sine_cosine_deg(angle);
-    node_.push_back({angle, t.sine, t.cosine});
+  planes_ = std::max<std::uint32_t>(static_cast<std::uint32_t>(phi.size()) - 1, 1);
+  for (std::size_t i = 0; i < intervals_; ++i) {
+    const SineCosine from = photometry::sine_cosine_deg(x[i]), to = photometry::sine_cosine_deg(x[i + 1]);
+    const double width = (x[i + 1] - x[i]) * degree;
+    const Moments whole = moments(from.sine, from.cosine, width, sine_versine(width));
+    interval_.push_back({x[i], width, 1 / width, from.sine, from.cosine, std::max(0.0, to.sine), to.cosine, whole.integral, whole.first});
   }
   const bool one_plane = phi.size() < 2;
-  running_.reserve(intervals_ * planes_ + 1);
+  running_.reserve(std::size_t{intervals_} * planes_ + 1);
   double sum = 0;
   running_.push_back(0);
   for (std::size_t j = 0; j < planes_; ++j) {
@@ -43,13 +65,13 @@ WebSampler::WebSampler(const IntensityWeb& web) : web_(&web), intervals_(web.pol
     }
   }
   if (!(sum > 0)) return;
+  inverse_flux_ = 1 / web.flux_lm();
   for (double& r : running_) r /= sum;
-  running_.back() = 1;
   const std::size_t cells = running_.size() - 1;
   first_.resize(cells);
   std::uint32_t cell = 0;
   for (std::size_t part = 0; part < cells; ++part) {
-    while (cell + 1 < cells && running_[cell + 1] <= static_cast<double>(part) / static_cast<double>(cells)) ++cell;
+    while (running_[cell + 1] <= static_cast<double>(part) / static_cast<double>(cells)) ++cell;
     first_[part] = cell;
   }
 }
@@ -76,73 +98,144 @@ double WebSampler::share_below(const Cell& c, double polar_deg) const {
   return whole > 0 ? integral(polar_deg) / whole : 0;
 }
 
-// Linear in the angle: with M = a + s (b - a) / h over s = 0..h from theta0, the flux below is
-//   G(s) = a (cos theta0 - cos theta) + (b - a) / h (sin theta - sin theta0 - s cos theta),   G' = M sin theta.
-// Newton from the inverse of the density that is linear between its ends gains twice the digits a step.
+// Linear in the angle: M = a + r s with r = (b - a) / h over s = 0..h. The flux below s is G = a (integral of sin) + r (integral of s sin),
+// whose derivatives are D = M sin, D' = r sin + M cos, D'' = 2 r cos - M sin. With F = G - wanted, Householder's third method
+//   s -= F (D^2 - F D' / 2) / (D^3 - F D D' + F^2 D'' / 6)
+// makes of an error x one of order x^4 (Householder 1970, The Numerical Treatment of a Single Nonlinear Equation, 4.4). The density that is
+// linear between its ends starts it within about h^2 / 100 of the interval, so that one step is the rule.
+namespace {
+
+struct Step {
+  double by, sine, cosine;  // of the angle from where it leads away
+  double beyond;            // F there
+  bool defined;
+};
+template <class Interval>
+Step step_from(const Interval& w, double a, double r, double wanted, double s) {
+  const SineVersine d = sine_versine(s);
+  const SineCosine t = turned(w.sine, w.cosine, d);
+  const Moments m = moments(w.sine, w.cosine, s, d);
+  const double value = a + r * s, density = value * t.sine, slope = r * t.sine + value * t.cosine, bend = 2 * r * t.cosine - density;
+  const double f = a * m.integral + r * m.first - wanted, square = density * density;
+  const double below = density * (square - f * slope) + f * f * (bend * (1.0 / 6));
+  return {-f * (square - 0.5 * f * slope) / (below != 0 ? below : 1), t.sine, t.cosine, f, density > 0 && below > 0};
+}
+
+// After a step of less than this share of the distance to the nearer end, its fourth power is left.
+constexpr double last_step = 5e-4;
+
+// Sine and cosine turned by a last step, of whose series two terms are enough.
+SineCosine turned_by(const Step& step) {
+  const double x = step.by, square = x * x;
+  return turned(step.sine, step.cosine, {x * (1 - square * (1.0 / 6)), 0.5 * square * (1 - square * (1.0 / 12))});
+}
+
+}  // namespace
+
+WebSampler::Polar WebSampler::polar_for_share(const Interval& w, const Part& part) {
+  const double h = w.width_rad, r = (part.b - part.a) * w.inverse_width;
+  const double wanted = part.share * (part.a * w.integral + r * w.first_moment);
+  double s = h * linear_inverse(part.a * w.sine, part.b * w.end_sine, part.share);
+  for (int k = 0; k < 2; ++k) {
+    const Step step = step_from(w, part.a, r, wanted, s);
+    s += step.by;
+    const double to_end = std::min(s, h - s);
+    if (!(step.defined && to_end > 0)) break;
+    if (!(std::abs(step.by) <= last_step * to_end)) continue;
+    const SineCosine t = turned_by(step);
+    return {w.from_deg + s * (1 / degree), t.sine, t.cosine};
+  }
+  return bracketed(w, part);
+}
+
+// The same, wherever the start is: at a pole the density is 0, and steps may lead anywhere. What leaves the bracket is bisected.
+WebSampler::Polar WebSampler::bracketed(const Interval& w, const Part& part) {
+  const double h = w.width_rad, r = (part.b - part.a) * w.inverse_width;
+  const double wanted = part.share * (part.a * w.integral + r * w.first_moment);
+  double s = h * linear_inverse(part.a * w.sine, part.b * w.end_sine, part.share), low = 0, high = h;
+  for (int k = 0; k < 100 && high - low > 1e-16 * h; ++k) {
+    const Step step = step_from(w, part.a, r, wanted, s);
+    (step.beyond > 0 ? high : low) = s;
+    const double next = s + step.by;
+    if (!(step.defined && next >= low && next <= high)) {
+      s = 0.5 * (low + high);
+      continue;
+    }
+    s = next;
+    if (std::abs(step.by) > std::max(last_step * std::min(s, h - s), 1e-15 * h)) continue;
+    const SineCosine t = turned_by(step);
+    return {w.from_deg + s / degree, t.sine, t.cosine};
+  }
+  const SineCosine t = turned(w.sine, w.cosine, sine_versine(s));
+  return {w.from_deg + s / degree, t.sine, t.cosine};
+}
+
 WebSampler::Polar WebSampler::polar_for_share(const Cell& c, double share) const {
-  const std::vector<double>& x = web_->polar().nodes();
-  const double from = x[c.interval], width = x[c.interval + 1] - from;
+  const Interval& w = interval_[c.interval];
   const std::array<double, 2> sides = ends(c);
-  const double a = sides[0], b = sides[1];
-  const double h = width * degree, sine0 = node_[c.interval].sine, cosine0 = node_[c.interval].cosine;
   if (web_->interpolation() == Interpolation::cosine) {
-    const double cosine = cosine0 + linear_inverse(a, b, share) * (node_[c.interval + 1].cosine - cosine0);
+    const double cosine = w.cosine + linear_inverse(sides[0], sides[1], share) * (w.end_cosine - w.cosine);
     return {std::acos(std::clamp(cosine, -1.0, 1.0)) / degree, std::sqrt(std::max(0.0, 1 - cosine * cosine)), cosine};
   }
-  if (web_->interpolation() == Interpolation::cubic) {
-    double lo = from, hi = from + width;
-    for (int k = 0; k < 60; ++k) {
-      const double middle = 0.5 * (lo + hi);
-      (share_below(c, middle) < share ? lo : hi) = middle;
-    }
-    return {lo, std::sin(lo * degree), std::cos(lo * degree)};
+  // Newton on the share below, and bisection where that leaves the bracket.
+  const double from = w.from_deg, to = web_->polar().nodes()[c.interval + 1];
+  const std::size_t next_plane = web_->azimuth().nodes().size() < 2 ? c.plane : c.plane + 1;
+  const double whole = web_->profile_integral(c.plane, c.interval, from, to) + web_->profile_integral(next_plane, c.interval, from, to);
+  double lo = from, hi = to, angle = from + (to - from) * linear_inverse(sides[0] * w.sine, sides[1] * w.end_sine, share);
+  for (int k = 0; k < 60 && hi - lo > 1e-14 * to; ++k) {
+    const double beyond = share_below(c, angle) - share, sine = std::sin(angle * degree), cosine = std::cos(angle * degree);
+    (beyond > 0 ? hi : lo) = angle;
+    const double density =
+        (web_->profile(c.plane, c.interval, angle, cosine) + web_->profile(next_plane, c.interval, angle, cosine)) * sine;
+    const double next = density > 0 ? angle - beyond * whole / (density * degree) : lo;
+    const double moved = next - angle;
+    angle = next > lo && next < hi ? next : 0.5 * (lo + hi);
+    if (next > lo && next < hi && std::abs(moved) < 1e-13 * to) break;
   }
-  const double rise = (b - a) / h;
-  const auto at = [&](double s) {
-    const SineCosine d = sine_cosine(s);
-    return SineCosine{sine0 * d.cosine + cosine0 * d.sine, cosine0 * d.cosine - sine0 * d.sine};
-  };
-  const auto below = [&](double s, const SineCosine& t) { return a * (cosine0 - t.cosine) + rise * (t.sine - sine0 - s * t.cosine); };
-  const SineCosine end{node_[c.interval + 1].sine, node_[c.interval + 1].cosine};
-  const double wanted = share * below(h, end);
-  double s = h * linear_inverse(a * sine0, b * std::max(0.0, end.sine), share);
-  SineCosine t = at(s);
-  for (int k = 0; k < 8; ++k) {
-    const double density = (a + rise * s) * t.sine;
-    if (!(density > 0)) break;
-    const double next = std::clamp(s - (below(s, t) - wanted) / density, 0.0, h), moved = std::abs(next - s);
-    s = next;
-    t = at(s);
-    if (moved < 1e-6 * h) break;  // the next step would be its square
-  }
-  return {from + s / degree, t.sine, t.cosine};
+  return {angle, std::sin(angle * degree), std::cos(angle * degree)};
 }
 
 WebSampler::Sample WebSampler::sample(const Vec2d& u) const {
   if (first_.empty()) return {};
   const std::size_t cells = first_.size();
-  std::size_t cell = first_[std::min(static_cast<std::size_t>(u.x * static_cast<double>(cells)), cells - 1)];
-  while (cell + 1 < cells && running_[cell + 1] <= u.x) ++cell;
-  const Cell c{static_cast<std::uint32_t>(cell / intervals_), static_cast<std::uint32_t>(cell % intervals_)};
-  const double share = std::clamp((u.x - running_[cell]) / (running_[cell + 1] - running_[cell]), 0.0, 1.0);
-  const Polar polar = polar_for_share(c, share);
-
-  const int copies = web_->copies();
-  const int copy = std::min(static_cast<int>(u.y * copies), copies - 1);
-  const double v = u.y * copies - copy;
+  constexpr double below_one = 1 - 0x1p-53;  // the last border, 1, is never passed
+  const double ux = std::min(u.x, below_one);
+  std::size_t cell = first_[std::min(static_cast<std::size_t>(ux * static_cast<double>(cells)), cells - 1)];
+  // Whether the first border is passed is as good as random: no branch for that step.
+  cell += running_[cell + 1] <= ux ? 1 : 0;
+  while (running_[cell + 1] <= ux) ++cell;
+  const auto number = static_cast<std::uint32_t>(cell);
+  const Cell c{number / intervals_, number % intervals_};
+  const double below = running_[cell], share = std::clamp((ux - below) / (running_[cell + 1] - below), 0.0, 1.0);
+  const Interval& w = interval_[c.interval];
   const std::vector<double>& phi = web_->azimuth().nodes();
-  const double near = web_->profile(c.plane, c.interval, polar.angle_deg, polar.cosine);
-  double azimuth = 360 * v, cd = near;
-  if (phi.size() > 1) {
-    const double far = web_->profile(c.plane + 1, c.interval, polar.angle_deg, polar.cosine), t = linear_inverse(near, far, v);
-    azimuth = phi[c.plane] + t * (phi[c.plane + 1] - phi[c.plane]);
-    cd = near + t * (far - near);
+  const bool one_plane = phi.size() < 2;
+  const std::uint32_t next = one_plane ? c.plane : c.plane + 1;
+
+  Polar polar{};
+  double near = 0, far = 0;
+  if (linear_) {
+    const double a0 = web_->node(c.plane, c.interval), a1 = web_->node(c.plane, c.interval + 1);
+    const double b0 = web_->node(next, c.interval), b1 = web_->node(next, c.interval + 1);
+    polar = polar_for_share(w, Part{0.5 * (a0 + b0), 0.5 * (a1 + b1), share});
+    const double along = std::clamp((polar.angle_deg - w.from_deg) * (degree * w.inverse_width), 0.0, 1.0);
+    near = a0 + along * (a1 - a0);
+    far = b0 + along * (b1 - b0);
+  } else {
+    polar = polar_for_share(c, share);
+    near = web_->profile(c.plane, c.interval, polar.angle_deg, polar.cosine);
+    far = web_->profile(next, c.interval, polar.angle_deg, polar.cosine);
   }
-  const WebAngles own = web_->unfolded(polar.angle_deg, azimuth, copy);
-  if (web_->type() != WebType::c) return {direction_of(web_->type(), own, web_->frame()), cd / web_->flux_lm(), cd};
+
+  const int copy = std::min(static_cast<int>(u.y * copies_), copies_ - 1);
+  const double v = u.y * copies_ - copy, t = one_plane ? 0 : linear_inverse(near, far, v);
+  const double azimuth = one_plane ? 360 * v : phi[c.plane] + t * (phi[next] - phi[c.plane]), cd = near + t * (far - near);
+  const WebAngles own =
+      copies_ == 1 && web_->type() == WebType::c ? WebAngles{polar.angle_deg, azimuth} : web_->unfolded(polar.angle_deg, azimuth, copy);
+  if (web_->type() != WebType::c) return {direction_of(web_->type(), own, web_->frame()), cd * inverse_flux_, cd};
   const SineCosine turn = photometry::sine_cosine_deg(own.horizontal_deg + web_->frame().turn_deg);
   const double y = polar.sine * turn.sine;
-  return {{polar.sine * turn.cosine, web_->frame().clockwise ? -y : y, -polar.cosine}, cd / web_->flux_lm(), cd};
+  return {{polar.sine * turn.cosine, web_->frame().clockwise ? -y : y, -polar.cosine}, cd * inverse_flux_, cd};
 }
 
 Vec2d WebSampler::inverse(const Vec3d& direction) const {

@@ -87,6 +87,7 @@ Result<IntensityWeb> IntensityWeb::of(const IntensityDistribution& distribution,
     for (std::size_t at = 0; at < web.candela_.size(); at += polar.size()) monotone_slopes(polar, &web.candela_[at], &web.slope_[at]);
   }
   web.usual_ = grid.type == WebType::c && interpolation == Interpolation::linear;
+  web.origin_deg_ = frame.turn_deg + web.azimuth_.first();
   web.angles_ = polar.size();
   web.max_cd_ = *std::max_element(web.candela_.begin(), web.candela_.end());
   web.flux_lm_ = web.flux_between(0, 180);
@@ -177,20 +178,16 @@ double IntensityWeb::at_table(double polar_deg, double azimuth_deg) const {
   return near + a.position * (far - near);
 }
 
-// The usual web, type C and linear, without a call. Rounding may leave an azimuth at 360 or just below 0.
-inline double IntensityWeb::at_usual(double gamma_deg, double c_deg) const {
+// The usual web, type C and linear, without a call; `past_deg` from the first plane.
+inline double IntensityWeb::at_usual(double gamma_deg, double past_deg) const {
   if (!(gamma_deg >= polar_.first() && gamma_deg <= polar_.last())) return 0;
   const AngleAxis::Place p = polar_.place(gamma_deg);
   if (symmetry_ == WebSymmetry::rotational) {
     const double* const y = &candela_[p.interval];
     return y[0] + p.position * (y[1] - y[0]);
   }
-  double past = c_deg - azimuth_.first();
-  past += past < 0 ? 360.0 : 0.0;
-  if (!(past >= 0 && past <= 360)) past -= 360 * std::floor(past / 360);
-  past = past > half_deg_ ? 360 - past : past;
-  past = past > quarter_deg_ ? 180 - past : past;
-  const AngleAxis::Place a = azimuth_.place(azimuth_.first() + past);
+  if (!(past_deg >= -360 && past_deg <= 360)) past_deg -= 360 * std::floor(past_deg / 360);
+  const AngleAxis::Place a = azimuth_.place_past(photometry::folded_past(past_deg, half_deg_, quarter_deg_));
   const double* const y = &candela_[a.interval * angles_ + p.interval];
   const double* const z = y + angles_;
   const double near = y[0] + p.position * (y[1] - y[0]), far = z[0] + p.position * (z[1] - z[0]);
@@ -198,14 +195,15 @@ inline double IntensityWeb::at_usual(double gamma_deg, double c_deg) const {
 }
 
 double IntensityWeb::at_own_angles(const WebAngles& angles) const {
-  if (usual_) return at_usual(angles.vertical_deg, angles.horizontal_deg);
+  if (usual_) return at_usual(angles.vertical_deg, angles.horizontal_deg - azimuth_.first());
   const Folded f = folded(angles);
   return f.lit ? at_table(f.polar_deg, f.azimuth_deg) : 0;
 }
 
 double IntensityWeb::at(double c_deg, double gamma_deg) const {
-  if (usual_) return at_usual(gamma_deg, (frame_.clockwise ? -c_deg : c_deg) - frame_.turn_deg);
-  if (type_ == WebType::c) return at_own_angles({gamma_deg, (frame_.clockwise ? -c_deg : c_deg) - frame_.turn_deg});
+  const double turned = frame_.clockwise ? -c_deg : c_deg;
+  if (usual_) return at_usual(gamma_deg, turned - origin_deg_);
+  if (type_ == WebType::c) return at_own_angles({gamma_deg, turned - frame_.turn_deg});
   return towards(direction_of(WebType::c, {gamma_deg, c_deg}));
 }
 
@@ -213,9 +211,9 @@ double IntensityWeb::towards(const Vec3d& direction) const {
   if (!usual_) return at_own_angles(angles_of(type_, direction, frame_));
   const double x = direction.x, y = frame_.clockwise ? -direction.y : direction.y, square = x * x + y * y;
   const double leg = square > 1e-290 && square < 1e290 ? std::sqrt(square) : std::hypot(x, y);
-  const double gamma = photometry::atan2_deg(leg, -direction.z);
-  if (symmetry_ == WebSymmetry::rotational) return at_usual(gamma, 0);
-  return at_usual(gamma, photometry::atan2_deg(y, x) - frame_.turn_deg);
+  if (symmetry_ == WebSymmetry::rotational) return at_usual(photometry::atan2_deg(leg, -direction.z), 0);
+  const photometry::Pair angles = photometry::two_atan2_deg(leg, -direction.z, y, x);
+  return at_usual(angles[0], angles[1] - origin_deg_);
 }
 
 }  // namespace etendue
