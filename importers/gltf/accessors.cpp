@@ -164,9 +164,9 @@ Result<std::reference_wrapper<const tinygltf::Accessor>> accessor_at(Asset& asse
   const tinygltf::Accessor& accessor = asset.model().accessors[static_cast<std::size_t>(index)];
   if (component_size(accessor.componentType) == 0)
     return asset.failure("VALUE_NOT_IN_LIST", fmt::format("glTF has no componentType {}", accessor.componentType), pointer);
-  if (accessor.count < 1 || accessor.count > asset.options().max_items)
-    return asset.failure("LIMIT_EXCEEDED", fmt::format("{} elements are outside 1 to {}", accessor.count, asset.options().max_items),
-                         pointer);
+  if (accessor.count < 1) return asset.failure("VALUE_NOT_IN_RANGE", "expected at least one element, found none", pointer + "/count");
+  if (accessor.count > asset.options().max_items)
+    return asset.over_limit(fmt::format("an array of {} elements", accessor.count), "max_items", asset.options().max_items, pointer);
   return std::cref(accessor);
 }
 
@@ -220,6 +220,7 @@ Result<std::vector<Vector>> read(Asset& asset, int index, std::size_t width, con
     if (!there) return there.error();
     elements = std::move(*there);
   }
+  if (auto room = asset.claim_memory(std::uint64_t{accessor.count} * width * sizeof(float), pointer); !room) return room.error();
   std::vector<Vector> values(accessor.count * width * sizeof(float) / sizeof(Vector));  // zeros, unless somebody says more
   auto* const numbers = reinterpret_cast<float*>(values.data());
   if (elements) put(elements->bytes.data(), elements->stride, layout.count, format, accessor.normalized, numbers);
@@ -286,6 +287,7 @@ Result<std::vector<std::uint32_t>> read_indices(Asset& asset, int index) {
     if (!there) return there.error();
     elements = std::move(*there);
   }
+  if (auto room = asset.claim_memory(std::uint64_t{accessor.count} * sizeof(std::uint32_t), pointer); !room) return room.error();
   std::vector<std::uint32_t> values(accessor.count);
   if (elements) {
     const auto put = size == 1 ? widen<std::uint8_t> : size == 2 ? widen<std::uint16_t> : widen<std::uint32_t>;

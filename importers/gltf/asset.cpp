@@ -72,7 +72,7 @@ Result<std::unique_ptr<Asset>> Asset::open(const std::filesystem::path& file, co
   asset->file_ = file;
   asset->folder_ = file.parent_path();
   asset->options_ = options;
-  const auto bytes = map_file(file, options.max_bytes);
+  const auto bytes = asset->map(file, "");
   if (!bytes) return bytes.error();
   std::vector<Diagnostic> faults;
   const auto container = open_container(bytes->bytes(), is_named_glb(file), faults);
@@ -123,35 +123,35 @@ Error Asset::stopped() {
 }
 
 bool Asset::parse(std::string_view text) {
-  const auto fail = [&](const char* code, std::string problem, const Where& where, std::string hint = {}) {
-    Where place = where;
-    place.file = file_.string();
+  const auto fail_as = [&](Error problem, const Where& where) {
+    problem.where = where;
+    problem.where.file = file_.string();
     if (is_glb_) {
-      place.offset = static_cast<std::int64_t>(json_offset_ + offset_in(text, where));
-      place.line = place.column = 0;
+      problem.where.offset = static_cast<std::int64_t>(json_offset_ + offset_in(text, where));
+      problem.where.line = problem.where.column = 0;
     }
-    add({Severity::error, code, std::move(problem), place, std::move(hint)});
+    error(problem);
     return false;
+  };
+  const auto fail = [&](const char* code, std::string problem, const Where& where) {
+    return fail_as({code, std::move(problem), {}, {}, {}}, where);
   };
   const Where begin{{}, 1, 1, {}};
   if (text.size() > options_.max_memory / memory_per_byte)
-    return fail("LIMIT_EXCEEDED",
-                over_limit(fmt::format("the memory for {} bytes of JSON", text.size()), "max_memory", options_.max_memory), begin,
-                limit_hint("max_memory"));
+    return fail_as(limit_exceeded(fmt::format("the memory for {} bytes of JSON", text.size()), "max_memory", options_.max_memory), begin);
+  memory_ = memory_per_byte * text.size();
   if (text.starts_with("\xEF\xBB\xBF")) fail("INVALID_JSON", "expected UTF-8 without a byte order mark", begin);
   JsonLimits limits;
   limits.max_depth = options_.max_depth;
   limits.max_values = std::min<std::uint64_t>(limits.max_values, options_.max_memory / memory_per_value);
   auto document = JsonDocument::parse(text, file_.string(), limits);
   if (!document) {
-    const Error& error = document.error();
-    if (error.code == "JSON_TOO_DEEP")
-      return fail("LIMIT_EXCEEDED", over_limit("the nesting", "max_depth", static_cast<unsigned>(options_.max_depth)), error.where,
-                  limit_hint("max_depth"));
-    if (error.code == "JSON_TOO_LARGE")
-      return fail("LIMIT_EXCEEDED", over_limit("the memory for " + error.text, "max_memory", options_.max_memory), error.where,
-                  limit_hint("max_memory"));
-    return fail(error.text.starts_with("number overflow") ? "VALUE_NOT_IN_RANGE" : "INVALID_JSON", error.text, error.where);
+    const Error& problem = document.error();
+    if (problem.code == "JSON_TOO_DEEP")
+      return fail_as(limit_exceeded("the nesting", "max_depth", static_cast<unsigned>(options_.max_depth)), problem.where);
+    if (problem.code == "JSON_TOO_LARGE")
+      return fail_as(limit_exceeded("the memory for " + problem.text, "max_memory", options_.max_memory), problem.where);
+    return fail(problem.text.starts_with("number overflow") ? "VALUE_NOT_IN_RANGE" : "INVALID_JSON", problem.text, problem.where);
   }
   text_ = std::move(*document);
   for (const JsonValue& duplicate : text_->duplicate_keys())
@@ -216,6 +216,44 @@ Where Asset::at(const std::string& pointer) const {
 
 Error Asset::failure(std::string code, std::string text, const std::string& pointer) const {
   return {std::move(code), std::move(text), at(pointer), {}, {}};
+}
+
+Error Asset::over_limit(const std::string& what, const char* option, std::uint64_t limit, const std::string& pointer) const {
+  Error error = limit_exceeded(what, option, limit);
+  error.where = at(pointer);
+  return error;
+}
+
+Status Asset::claim_memory(std::uint64_t bytes, const std::string& pointer) {
+  if (memory_ > options_.max_memory || bytes > options_.max_memory - memory_)
+    return over_limit(fmt::format("{} bytes more in memory", bytes), "max_memory", options_.max_memory, pointer);
+  memory_ += bytes;
+  return Done{};
+}
+
+Status Asset::claim_decoded(std::uint64_t bytes, const std::string& pointer) {
+  if (bytes > options_.max_decoded - decoded_)
+    return over_limit(fmt::format("decoding {} bytes more", bytes), "max_decoded", options_.max_decoded, pointer);
+  decoded_ += bytes;
+  return claim_memory(bytes, pointer);
+}
+
+Result<SharedBytes> Asset::map(const std::filesystem::path& file, const std::string& pointer) const {
+  auto bytes = map_file(file, options_.max_bytes);
+  if (bytes) return bytes;
+  if (bytes.error().code == "FILE_TOO_LARGE")
+    return over_limit(fmt::format("the size of \"{}\"", file.string()), "max_bytes", options_.max_bytes, pointer);
+  Error error = bytes.error();
+  if (!pointer.empty()) error.where = at(pointer);
+  return error;
+}
+
+Result<SharedBytes> Asset::data_of(const std::string& uri, const std::string& pointer) {
+  if (const auto found = data_.find(pointer); found != data_.end()) return found->second;
+  if (auto room = claim_decoded(most_bytes_of(uri), pointer); !room) return room.error();
+  auto bytes = decode_data_uri(uri);
+  if (!bytes) return failure(bytes.error().code, bytes.error().text, pointer);
+  return data_.emplace(pointer, SharedBytes(std::move(*bytes))).first->second;
 }
 
 void Asset::add(Diagnostic diagnostic) {
@@ -303,8 +341,9 @@ Result<SharedBytes> Asset::buffer(int index) {
 
 Result<SharedBytes> Asset::open_buffer(const Json& buffer, bool first, const std::string& pointer) {
   const double authored_length = number_or(buffer, "byteLength", 0);
-  if (!(authored_length >= 1 && authored_length <= static_cast<double>(options_.max_bytes)))
-    return failure("LIMIT_EXCEEDED", fmt::format("byteLength {} is outside 1 to {}", authored_length, options_.max_bytes), pointer);
+  if (!(authored_length >= 1)) return failure("VALUE_NOT_IN_RANGE", "expected a byteLength of 1 or more", pointer);
+  if (authored_length > static_cast<double>(options_.max_bytes))
+    return over_limit(fmt::format("byteLength {}", authored_length), "max_bytes", options_.max_bytes, pointer);
   const auto byte_length = static_cast<std::uint64_t>(authored_length);
 
   if (!buffer.contains("uri")) {
@@ -318,13 +357,13 @@ Result<SharedBytes> Asset::open_buffer(const Json& buffer, bool first, const std
   const std::string uri = text_or(buffer, "uri", "");
   SharedBytes bytes;
   if (is_data_uri(uri)) {
-    auto data = decode_data_uri(uri, options_.max_bytes);
-    if (!data) return failure(data.error().code, data.error().text, pointer + "/uri");
-    bytes = SharedBytes(std::move(data->bytes));
+    auto data = data_of(uri, pointer + "/uri");
+    if (!data) return data.error();
+    bytes = std::move(*data);
   } else {
     const auto path = file_inside(folder_, uri);
     if (!path) return failure(path.error().code, path.error().text, pointer + "/uri");
-    auto mapped = map_file(*path, options_.max_bytes);
+    auto mapped = map(*path, pointer + "/uri");
     if (!mapped) return mapped.error();
     bytes = std::move(*mapped);
   }

@@ -48,11 +48,18 @@ class Asset {
   Result<SharedBytes> view(int index);
   // The bytes that the document's buffer has, as far as anybody holds them; nothing is read yet.
   Result<SharedBytes> buffer(int index);
+  // What a data URI says, decoded once. `pointer` is the place of the URI.
+  Result<SharedBytes> data_of(const std::string& uri, const std::string& pointer);
+  // To be asked before room is made: for bytes that hold what something compressed or encoded becomes (max_decoded and max_memory), or
+  // anything else (max_memory). Each limit counts all claims of the asset together.
+  Status claim_decoded(std::uint64_t bytes, const std::string& pointer);
+  Status claim_memory(std::uint64_t bytes, const std::string& pointer);
   // The JSON as it stands in the file.
   const SharedBytes& document() const { return document_; }
 
   Where at(const std::string& pointer) const;
   Error failure(std::string code, std::string text, const std::string& pointer) const;
+  Error over_limit(const std::string& what, const char* option, std::uint64_t limit, const std::string& pointer) const;
   void error(std::string code, std::string text, const std::string& pointer);
   void error(const Error& error);
   void warning(std::string code, std::string text, const std::string& pointer);
@@ -75,6 +82,7 @@ class Asset {
   bool check();
   Error stopped();
   void load_model();
+  Result<SharedBytes> map(const std::filesystem::path& file, const std::string& pointer) const;
   Result<SharedBytes> open_buffer(const nlohmann::json& buffer, bool first, const std::string& pointer);
   Result<SharedBytes> decoded_view(const nlohmann::json& meshopt, std::size_t expected, const std::string& view);
   Result<SharedBytes> part_of_buffer(int buffer, std::size_t offset, std::size_t length, const std::string& pointer);
@@ -86,6 +94,8 @@ class Asset {
   tinygltf::Model model_;
   SchemaFindings schema_;
   std::map<int, SharedBytes> buffers_, views_;
+  std::map<std::string, SharedBytes> data_;  // of data URIs, by their places
+  std::uint64_t decoded_ = 0, memory_ = 0;   // claimed
   std::uint64_t buffer_bytes_read_ = 0;
   std::unordered_set<std::string> taken_;
   std::optional<JsonDocument> text_;  // where each value stands: lines in a .gltf, bytes in a GLB

@@ -10,8 +10,9 @@
 namespace etendue::gltf {
 namespace {
 
-// Accessors may share bytes, and honest ones share some. How often all bytes of the buffers may be looked at, and how many in any case.
-constexpr std::uint64_t most_passes = 8, least_budget = std::uint64_t{1} << 26;
+// Accessors may share bytes, and honest ones share some. How often all bytes of the buffers may be looked at, and how often as many bytes
+// as an array may have items in any case.
+constexpr std::uint64_t most_passes = 8;
 
 bool is_fallback(const Json& buffer) { return is_true(object_at(object_at(buffer, "extensions"), "EXT_meshopt_compression"), "fallback"); }
 
@@ -48,7 +49,8 @@ void check_buffer_files(DataChecks& checks) {
       checks.asset.warning("BUFFER_GLB_CHUNK_TOO_BIG", fmt::format("the binary chunk has {} bytes more than the buffer", chunk - padded),
                            pointer);
   }
-  checks.budget = std::max(least_budget, most_passes * std::min(bytes, checks.asset.options().max_memory));
+  const std::uint64_t at_least = std::min<std::uint64_t>(checks.asset.options().max_items, UINT64_MAX / most_passes);
+  checks.budget = most_passes * std::max(at_least, std::min(bytes, checks.asset.options().max_memory));
 }
 
 std::optional<Elements> DataChecks::placed(std::int64_t view, std::uint64_t offset, std::uint64_t count, std::uint64_t stride,
@@ -59,7 +61,8 @@ std::optional<Elements> DataChecks::placed(std::int64_t view, std::uint64_t offs
   const std::uint64_t bytes = extent(count, stride, element);
   if (offset > record->length || bytes > record->length - offset) return std::nullopt;
   if (bytes > budget) {
-    asset.error("LIMIT_EXCEEDED", "accessors overlap so often that they are not all looked at", fmt::format("/bufferViews/{}", view));
+    asset.error(asset.over_limit(fmt::format("1/{} of the bytes that overlapping accessors read", most_passes), "max_items",
+                                 asset.options().max_items, fmt::format("/bufferViews/{}", view)));
     budget = 0;
     return std::nullopt;
   }

@@ -4,11 +4,17 @@
 #include <algorithm>
 
 #include "checks.h"
-#include "image_header.h"
+#include "picture_header.h"
 #include "uri.h"
 
 namespace etendue::gltf {
 namespace {
+
+// By its first bytes; "" for what no texture may be.
+std::string type_of_data(std::string_view uri) {
+  const auto header = picture_header(head_of_data_uri(uri, picture_signature_size));
+  return header ? header->mime_type : "";
+}
 
 std::vector<std::string> mime_types(const Checks& checks) {
   std::vector<std::string> types = {"image/jpeg", "image/png"};
@@ -27,7 +33,7 @@ void check_image_uri(Checks& checks, const std::string& uri, const Path& path) {
   }
   if (checks.is_glb) checks.findings.warning("DATA_URI_GLB", "a data URI where the binary chunk would be shorter", path);
   const std::string declared = mime_type_of(uri);
-  const std::string found = mime_type_of_image(head_of_data_uri(uri, signature_size));
+  const std::string found = type_of_data(uri);
   if (declared != found)
     checks.findings.error("INVALID_URI",
                           fmt::format("the data URI says \"{}\", its bytes are {}", declared, found.empty() ? "no known picture" : found),
@@ -63,9 +69,7 @@ void check_source(Checks& checks, const Json& holder, const std::vector<std::str
   if (source < 0 || static_cast<std::size_t>(source) >= images.size()) return;
   const Json& image = images[static_cast<std::size_t>(source)];
   const std::string *uri = text_of(image, "uri"), *declared = text_of(image, "mimeType");
-  const std::string type = declared != nullptr                   ? *declared
-                           : uri != nullptr && is_data_uri(*uri) ? mime_type_of_image(head_of_data_uri(*uri, signature_size))
-                                                                 : "";
+  const std::string type = declared != nullptr ? *declared : uri != nullptr && is_data_uri(*uri) ? type_of_data(*uri) : "";
   if (!type.empty() && std::find(allowed.begin(), allowed.end(), type) == allowed.end())
     checks.findings.error("TEXTURE_INVALID_IMAGE_MIME_TYPE", fmt::format("expected an image of {}, found {}", allowed.front(), type),
                           path / "source");

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "data_checks.h"
-#include "image_header.h"
+#include "picture_header.h"
 #include "uri.h"
 
 namespace etendue::gltf {
@@ -50,14 +50,17 @@ class PictureCheck {
   }
 
   void check_bytes(std::span<const std::byte> bytes, const char* where) {
-    const auto header = read_image_header(bytes);
-    if (!header) {
-      // The validator leaves a kind that it does not know to the reader.
-      if (header.error().code == "IMAGE_UNRECOGNIZED_FORMAT") return asset_.warning(header.error().code, header.error().text, pointer_);
-      // More metadata than is read here is no fault.
-      if (header.error().code == "IMAGE_UNEXPECTED_EOS" && bytes.size() >= largest_head) return;
-      return asset_.error(asset_.failure(header.error().code, header.error().text, pointer_));
-    }
+    const auto header = picture_header(bytes);
+    // The validator leaves a kind that it does not know to the reader.
+    if (!header || header->mime_type[0] == '\0')
+      return asset_.warning("IMAGE_UNRECOGNIZED_FORMAT", "the bytes are of no kind of picture that glTF knows", pointer_);
+    if (header->fault == PictureFault::malformed)
+      return asset_.error("IMAGE_DATA_INVALID", fmt::format("its header is none of a {}", header->format), pointer_);
+    // More metadata than is read here is no fault.
+    if (header->fault == PictureFault::cut_off && bytes.size() < largest_head)
+      return asset_.error("IMAGE_UNEXPECTED_EOS", "the picture ends inside its header", pointer_);
+    if (header->channels != 0 && header->channels != 1 && header->channels != 3)
+      return asset_.error("IMAGE_DATA_INVALID", fmt::format("expected a JPEG of 1 or 3 channels, found {}", header->channels), pointer_);
     const std::string* declared = text_of(image_, "mimeType");
     if (declared != nullptr && *declared != header->mime_type)
       asset_.error("IMAGE_MIME_TYPE_INVALID", fmt::format("expected {}, found {}", *declared, header->mime_type), pointer_ + where);
@@ -68,11 +71,7 @@ class PictureCheck {
       asset_.note("IMAGE_NPOT_DIMENSIONS", fmt::format("{} x {} are not powers of two", header->width, header->height), pointer_);
     const std::uint64_t pixels = std::uint64_t{header->width} * header->height;
     if (pixels > asset_.options().max_pixels)
-      asset_.error({"LIMIT_EXCEEDED",
-                    over_limit(fmt::format("{} pixels", pixels), "max_pixels", asset_.options().max_pixels),
-                    asset_.at(pointer_),
-                    limit_hint("max_pixels"),
-                    {}});
+      asset_.error(asset_.over_limit(fmt::format("a picture of {} pixels", pixels), "max_pixels", asset_.options().max_pixels, pointer_));
   }
 
   bool is_enabled(const std::string& mime_type) const {

@@ -111,15 +111,15 @@ class GlbReader {
 
 }  // namespace
 
-bool is_glb(std::span<const std::byte> head) { return !head.empty() && head[0] == std::byte{'g'}; }
-
 std::optional<Container> open_container(std::span<const std::byte> bytes, bool named_glb, std::vector<Diagnostic>& diagnostics) {
   const auto first = std::find_if(bytes.begin(), bytes.end(), [](std::byte b) {
     const auto c = static_cast<char>(b);
     return c != ' ' && c != '\t' && c != '\r' && c != '\n';
   });
   const bool looks_like_json = first != bytes.end() && *first == std::byte{'{'};
-  if (is_glb(bytes) || (named_glb && !looks_like_json)) return GlbReader(bytes, diagnostics).read();
+  // By the first byte, with which no JSON begins: so that a GLB whose magic is broken is told so.
+  const bool begins_as_glb = !bytes.empty() && bytes[0] == std::byte{'g'};
+  if (begins_as_glb || (named_glb && !looks_like_json)) return GlbReader(bytes, diagnostics).read();
   return Container{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, 0, std::nullopt, false};
 }
 

@@ -19,9 +19,6 @@ struct Container {
   bool is_glb = false;
 };
 
-// By the first byte, with which no JSON begins: so that a GLB whose magic is broken is told so.
-bool is_glb(std::span<const std::byte> head);
-
 // Views into `bytes`. What is wrong has an offset and the validator's code. No container: what is wrong leaves no JSON to look at.
 std::optional<Container> open_container(std::span<const std::byte> bytes, bool named_glb, std::vector<Diagnostic>& diagnostics);
 

@@ -31,10 +31,18 @@ void Findings::add_at(Severity severity, const char* code, std::string text, std
   if (!is_full(severity)) all_.push_back({severity, code, std::move(text), {"", 0, 0, std::move(pointer)}, {}});
 }
 
-std::string over_limit(const std::string& what, const char* option, unsigned long long limit) {
-  return fmt::format("{} is over the limit {} = {}", what, option, limit);
+void Findings::error(Error error, const Path& path) {
+  if (is_full(Severity::error)) return;
+  error.where.pointer = path.text();
+  all_.push_back(to_diagnostic(error));
 }
 
-std::string limit_hint(const char* option) { return fmt::format("ImportOptions::{} sets the limit", option); }
+Error limit_exceeded(const std::string& what, const char* option, std::uint64_t limit) {
+  return {"LIMIT_EXCEEDED",
+          fmt::format("{} is over the limit {} = {}", what, option, limit),
+          {},
+          fmt::format("--limit {0}=NUMBER, or ImportOptions::{0}, sets another", option),
+          {}};
+}
 
 }  // namespace etendue::gltf

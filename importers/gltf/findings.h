@@ -4,6 +4,7 @@
 #include "etendue/result.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,7 @@ constexpr std::size_t max_findings = 1000;
 class Findings {
  public:
   void error(const char* code, std::string text, const Path& path) { add(Severity::error, code, std::move(text), path); }
+  void error(Error error, const Path& path);
   void warning(const char* code, std::string text, const Path& path) { add(Severity::warning, code, std::move(text), path); }
   void note(const char* code, std::string text, const Path& path) { add(Severity::note, code, std::move(text), path); }
   void note_at(const char* code, std::string text, std::string pointer) {
@@ -48,8 +50,7 @@ class Findings {
   std::size_t counts_[3] = {};
 };
 
-// The error LIMIT_EXCEEDED of an option of ImportOptions: its text, and the hint that names it.
-std::string over_limit(const std::string& what, const char* option, unsigned long long limit);
-std::string limit_hint(const char* option);
+// The error LIMIT_EXCEEDED, somewhere: `what` is over a limit of ImportOptions, which its text and its hint name.
+Error limit_exceeded(const std::string& what, const char* option, std::uint64_t limit);
 
 }  // namespace etendue::gltf

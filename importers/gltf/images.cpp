@@ -26,10 +26,10 @@ Result<ImageRef> read_image(Asset& asset, const nlohmann::json& source, const st
     image.embedded = std::move(*bytes);
   } else if (is_data_uri(uri)) {
     if (!wanted) return image;
-    auto data = decode_data_uri(uri, asset.options().max_bytes);
-    if (!data) return asset.failure(data.error().code, data.error().text, pointer + "/uri");
-    if (image.mime_type.empty()) image.mime_type = data->mime_type;
-    image.embedded = SharedBytes(std::move(data->bytes));
+    auto data = asset.data_of(uri, pointer + "/uri");
+    if (!data) return data.error();
+    if (image.mime_type.empty()) image.mime_type = mime_type_of(uri);
+    image.embedded = std::move(*data);
   } else {
     const auto path = file_inside(asset.folder(), uri);
     if (!path) return asset.failure(path.error().code, path.error().text, pointer + "/uri");

@@ -9,7 +9,6 @@
 
 #include "carried.h"
 #include "check_data.h"
-#include "container.h"
 #include "nodes.h"
 
 namespace etendue {
@@ -23,12 +22,12 @@ class GltfImporter final : public Importer {
 
   // GLB by its magic; JSON by the member that every glTF has, which need not be near the beginning.
   int sniff(std::span<const std::byte> head) const override {
-    if (gltf::is_glb(head)) return 100;
-    const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+    std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+    if (text.starts_with("glTF")) return 100;
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // not allowed, which reading says
     const auto first = std::find_if(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c) == 0; });
     if (first == text.end() || *first != '{') return 0;
     const auto contains = [&](std::string_view key) { return text.find(key) != std::string_view::npos; };
-    if (contains("\"etendue\"")) return 0;
     if (contains("\"asset\"") && contains("\"version\"")) return 90;
     return contains("\"bufferViews\"") || contains("\"accessors\"") || contains("\"extensionsUsed\"") ? 80 : 5;
   }

@@ -30,6 +30,12 @@ Light common_light(const Json& source, const std::string& pointer, const Transfo
   return light;
 }
 
+// The type itself is the schema's affair.
+std::optional<Light> unknown_type(Asset& asset, const std::string& pointer) {
+  asset.warning("NOT_REPRESENTED", "a light of a type that is not known: carried, and it lights nothing", pointer);
+  return std::nullopt;
+}
+
 std::optional<Shape> spot_shape(Asset& asset, const Json& source, const std::string& pointer) {
   const Json none = Json::object();
   const auto found = source.find("spot");
@@ -57,9 +63,9 @@ Result<PhotometricShape> profile_of(Asset& asset, const Json& source, const std:
   }
   const std::string uri = text_or(source, "uri", "");
   if (is_data_uri(uri)) {
-    auto data = decode_data_uri(uri, asset.options().max_bytes);
-    if (!data) return asset.failure(data.error().code, data.error().text, pointer + "/uri");
-    return PhotometricShape{"", SharedBytes(std::move(data->bytes))};
+    auto data = asset.data_of(uri, pointer + "/uri");
+    if (!data) return data.error();
+    return PhotometricShape{"", std::move(*data)};
   }
   const auto path = file_inside(asset.folder(), uri);
   if (!path) return asset.failure(path.error().code, path.error().text, pointer + "/uri");
@@ -89,7 +95,7 @@ std::optional<Light> punctual_light(Asset& asset, const Json& use, const Transfo
       asset.warning("NOT_REPRESENTED", "a directional light has no place and so no range; it is ignored", pointer + "/range");
     return light;
   } else {
-    return std::nullopt;  // reported by the schema's check
+    return unknown_type(asset, pointer);
   }
   if (const double range = number_or(*source, "range", 0); range > 0) {
     light.range_m = range;
@@ -118,7 +124,7 @@ std::optional<Light> area_light(Asset& asset, const Json& use, const Transform& 
   } else if (type == "disk") {
     light.shape = DiskShape{size / 2};
   } else {
-    return std::nullopt;  // reported by the schema's check
+    return unknown_type(asset, pointer);
   }
   return light;
 }

@@ -92,6 +92,7 @@ std::optional<Mesh> Meshes::load(const tinygltf::Primitive& primitive, const std
     ++asset_.stats.skipped_meshes;
     return mesh;
   }
+  if (is_full_) return std::nullopt;  // said where it was
   const auto data = PrimitiveData::open(asset_, primitive, pointer);
   Status status = data ? read_vertices(*data, mesh) : Status(data.error());
   if (status) status = read_triangles(*data, mesh);
@@ -112,9 +113,10 @@ std::optional<Mesh> Meshes::load(const tinygltf::Primitive& primitive, const std
 // Many primitives may share one accessor: the limit on one array alone would let a small file fill the memory.
 Status Meshes::spend(std::size_t elements, const std::string& pointer) {
   const std::size_t limit = asset_.options().max_items > SIZE_MAX / 8 ? SIZE_MAX : 8 * asset_.options().max_items;
-  if (elements > limit - spent_)
-    return asset_.failure("LIMIT_EXCEEDED",
-                          fmt::format("all meshes together have more than 8 x max_items, {}, vertices and indices", limit), pointer);
+  is_full_ = elements > limit - spent_;
+  if (is_full_)
+    return asset_.over_limit(fmt::format("an eighth of all meshes' {} numbers", spent_ + elements), "max_items", asset_.options().max_items,
+                             pointer);
   spent_ += elements;
   return Done{};
 }

@@ -34,6 +34,7 @@ class Meshes {
   Scene& scene_;
   bool read_;
   std::size_t spent_ = 0;  // elements decoded so far
+  bool is_full_ = false;   // one more mesh would be over the limit
   std::map<std::tuple<int, std::size_t, int>, std::optional<std::uint32_t>> known_;
 };
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "json_values.h"
+
 #ifdef ETENDUE_MESHOPT
 #include <meshoptimizer.h>
 #endif
@@ -44,14 +46,13 @@ bool decode(const std::string& mode, const std::string& filter, std::size_t stri
 
 bool meshopt_is_built() { return true; }
 
-Result<SharedBytes> decode_meshopt(const Asset& asset, const nlohmann::json& extension, const SharedBytes& source,
-                                   const std::string& pointer) {
+Result<SharedBytes> decode_meshopt(Asset& asset, const nlohmann::json& extension, const SharedBytes& source, const std::string& pointer) {
   const double authored_stride = number_or(extension, "byteStride", 0), authored_count = number_or(extension, "count", 0);
   const std::string mode = text_or(extension, "mode", ""), filter = text_or(extension, "filter", "NONE");
-  const double bytes = authored_stride * authored_count, limit = static_cast<double>(asset.options().max_decoded);
-  if (!(authored_stride >= 0 && authored_count >= 0 && bytes <= limit))
-    return asset.failure("LIMIT_EXCEEDED", fmt::format("{} bytes that a bufferView decodes to are over max_decoded, {}", bytes, limit),
-                         pointer);
+  const double bytes = authored_stride * authored_count;
+  if (!(authored_stride >= 0 && authored_count >= 0 && bytes <= largest_integer))
+    return asset.failure("MESHOPT_INVALID", "expected a count and a byteStride whose product is a size", pointer);
+  if (auto room = asset.claim_decoded(static_cast<std::uint64_t>(bytes), pointer); !room) return room.error();
   const auto stride = static_cast<std::size_t>(authored_stride), count = static_cast<std::size_t>(authored_count);
   if (const char* fault = fault_of(mode, filter, stride, count)) return asset.failure("MESHOPT_INVALID", fault, pointer);
   std::vector<std::uint8_t> out(stride * count);
@@ -64,7 +65,7 @@ Result<SharedBytes> decode_meshopt(const Asset& asset, const nlohmann::json& ext
 
 bool meshopt_is_built() { return false; }
 
-Result<SharedBytes> decode_meshopt(const Asset& asset, const nlohmann::json&, const SharedBytes&, const std::string& pointer) {
+Result<SharedBytes> decode_meshopt(Asset& asset, const nlohmann::json&, const SharedBytes&, const std::string& pointer) {
   return asset.failure("NOT_BUILT", "this build decodes no EXT_meshopt_compression: meshoptimizer was not there", pointer);
 }
 

@@ -11,7 +11,6 @@ bool meshopt_is_built();
 
 // What the bufferView's bytes become. `extension` is its object of that name, `source` the compressed bytes. Errors: MESHOPT_INVALID,
 // LIMIT_EXCEEDED.
-Result<SharedBytes> decode_meshopt(const Asset& asset, const nlohmann::json& extension, const SharedBytes& source,
-                                   const std::string& pointer);
+Result<SharedBytes> decode_meshopt(Asset& asset, const nlohmann::json& extension, const SharedBytes& source, const std::string& pointer);
 
 }  // namespace etendue::gltf

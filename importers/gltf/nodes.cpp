@@ -32,8 +32,8 @@ void Nodes::read_default_scene() {
 
 void Nodes::visit(int node, const Transform& parent_to_world, int depth) {
   if (depth > asset_.options().max_depth) {
-    asset_.error("LIMIT_EXCEEDED", fmt::format("nodes nested more than max_depth, {}, deep", asset_.options().max_depth),
-                 node_pointer(node));
+    const auto limit = static_cast<std::uint64_t>(std::max(asset_.options().max_depth, 0));
+    asset_.error(asset_.over_limit("the depth of this node", "max_depth", limit, node_pointer(node)));
     return;
   }
   if (is_hidden(node)) return;

@@ -164,8 +164,7 @@ class Checker {
     if (!value.is_array()) return wrong_type(value, property.kind, path);
     if (value.empty()) return findings_.error("EMPTY_ENTITY", "expected at least one element, found none", path);
     if (value.size() > max_items_)
-      return findings_.error("LIMIT_EXCEEDED", over_limit(fmt::format("an array of {} elements", value.size()), "max_items", max_items_),
-                             path);
+      return findings_.error(limit_exceeded(fmt::format("an array of {} elements", value.size()), "max_items", max_items_), path);
     if (property.length != 0 && value.size() != property.length)
       return findings_.error("ARRAY_LENGTH_NOT_IN_LIST", fmt::format("expected {} numbers, found {}", property.length, value.size()), path);
     std::set<Json> seen;  // of strings and indices

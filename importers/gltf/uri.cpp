@@ -139,22 +139,20 @@ Status check_uri(std::string_view uri) {
   return Done{};
 }
 
-Result<DataUri> decode_data_uri(std::string_view uri, std::uint64_t max_bytes) {
+std::uint64_t most_bytes_of(std::string_view uri) {
+  const auto parts = data_parts(uri);
+  if (!parts) return 0;
+  return parts->is_base64 ? (parts->payload.size() + 3) / 4 * 3 : parts->payload.size();
+}
+
+Result<std::vector<std::uint8_t>> decode_data_uri(std::string_view uri) {
   if (auto form = check_uri(uri); !form) return form.error();
   const auto parts = data_parts(uri);
   if (!parts) return uri_error("INVALID_URI", "expected a data URI");
-  if (parts->payload.size() / 4 * 3 > max_bytes)
-    return uri_error("LIMIT_EXCEEDED",
-                     fmt::format("a data URI of about {} bytes is over the limit of {}", parts->payload.size() / 4 * 3, max_bytes));
   const auto text = unescaped(parts->payload);
   const std::string_view payload = text ? std::string_view(*text) : parts->payload;
-  DataUri result{mime_type_of(uri), {}};
-  if (parts->is_base64) {
-    result.bytes = base64_decoded(payload.substr(0, base64_digits(payload).value_or(0)));
-  } else {
-    result.bytes.assign(payload.begin(), payload.end());
-  }
-  return result;
+  if (parts->is_base64) return base64_decoded(payload.substr(0, base64_digits(payload).value_or(0)));
+  return std::vector<std::uint8_t>(payload.begin(), payload.end());
 }
 
 std::vector<std::byte> head_of_data_uri(std::string_view uri, std::size_t bytes) {
@@ -163,10 +161,10 @@ std::vector<std::byte> head_of_data_uri(std::string_view uri, std::size_t bytes)
   const std::string_view begin = comma == std::string_view::npos ? uri : uri.substr(0, comma + 1);
   std::string_view payload = uri.substr(begin.size(), (bytes + 2) / 3 * 12);
   payload = payload.substr(0, payload.size() / 4 * 4);
-  const auto data = decode_data_uri(std::string(begin) + std::string(payload), payload.size() + 1);
+  const auto data = decode_data_uri(std::string(begin) + std::string(payload));
   std::vector<std::byte> head;
   if (data)
-    for (std::size_t i = 0; i < std::min(bytes, data->bytes.size()); ++i) head.push_back(static_cast<std::byte>(data->bytes[i]));
+    for (std::size_t i = 0; i < std::min(bytes, data->size()); ++i) head.push_back(static_cast<std::byte>((*data)[i]));
   return head;
 }
 

@@ -12,16 +12,14 @@
 
 namespace etendue::gltf {
 
-struct DataUri {
-  std::string mime_type;  // lower case, without parameters
-  std::vector<std::uint8_t> bytes;
-};
 bool is_data_uri(std::string_view uri);
-// RFC 2397, base64 or percent-encoded. Errors: INVALID_URI, LIMIT_EXCEEDED.
-Result<DataUri> decode_data_uri(std::string_view uri, std::uint64_t max_bytes);
+// RFC 2397, base64 or percent-encoded. Error: INVALID_URI.
+Result<std::vector<std::uint8_t>> decode_data_uri(std::string_view uri);
 
-// Without decoding: whether decode_data_uri() could, its type, and its first bytes.
+// Without decoding: whether decode_data_uri() could, how many bytes it gives at most, its type (lower case, without parameters), and its
+// first bytes.
 Status check_uri(std::string_view uri);
+std::uint64_t most_bytes_of(std::string_view data_uri);
 std::string mime_type_of(std::string_view data_uri);
 std::vector<std::byte> head_of_data_uri(std::string_view data_uri, std::size_t bytes);
 

@@ -8,6 +8,7 @@
 
 #include "comparison_text.h"
 #include "importers/photometric_lights/photometric_lights.h"
+#include "limits.h"
 #include "verbs.h"
 
 namespace etendue::cli {
@@ -17,6 +18,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string in, out, to, loss, size = "512x512", camera, lights, mute;
+  ImportOptions import;
   int depth = 2;
   unsigned samples = 1024, jobs = 1;
   bool force = false;
@@ -62,7 +64,7 @@ void convert_one(Converted& job, const Options& options, Size size) {
   if (!exporter) return void(job.error = exporter.error());
   const auto importer = registry().importer_for(job.in);
   if (!importer) return void(job.error = importer.error());
-  Result<Imported> imported = (*importer)->read(job.in, {});
+  Result<Imported> imported = (*importer)->read(job.in, options.import);
   if (!imported) return void(job.error = imported.error());
   imported->diagnostics.append(read_photometric_lights(imported->scene));
   job.diagnostics.append(imported->diagnostics);
@@ -175,6 +177,7 @@ void add_convert(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--mute", options->mute, "All lights but these emit");
   verb->add_option("--jobs", options->jobs, "Files of a folder at a time")->capture_default_str()->check(CLI::Range(1, 256));
   verb->add_flag("--force", options->force, "Replace what is there");
+  add_limits(*verb, options->import);
   verb->footer(
       "\nExamples:\n  etendue convert kitchen.rig.json kitchen.xml\n  etendue convert assets/ scenes/ --to .xml --jobs 4 --loss "
       "losses.json");

@@ -1,6 +1,7 @@
 // etendue info: what is in an asset, as authored, and what is wrong with it.
 #include <fmt/format.h>
 
+#include "limits.h"
 #include "overview.h"
 #include "pictures.h"
 #include "verbs.h"
@@ -11,7 +12,7 @@ namespace {
 struct InfoOptions {
   std::vector<std::string> files;
   std::vector<std::string> need;
-  bool tolerant = false;
+  ImportOptions import;
 };
 
 Need need_of(const std::vector<std::string>& names) {
@@ -59,9 +60,8 @@ bool report(Session& session, const std::string& file, const ImportOptions& opti
 int run_info(const Common& common, const InfoOptions& options) {
   Session session("info", common);
   session.result = Json::array();
-  ImportOptions import_options;
+  ImportOptions import_options = options.import;
   import_options.need = need_of(options.need);
-  import_options.tolerant = options.tolerant;
   bool good = true;
   for (const std::string& file : options.files) good = report(session, file, import_options) && good;
   return session.finish(good ? exit_done : exit_bad_input);
@@ -75,12 +75,16 @@ void add_info(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("FILE", options->files, "Assets: .rig.json, .gltf, .glb")->required();
   verb->add_option("--need", options->need, "Only these: lights, materials, cameras, meshes, images; the rest of the file is not touched")
       ->delimiter(',')
+      ->expected(1)
+      ->take_all()
       ->check(CLI::IsMember({"lights", "materials", "cameras", "meshes", "images"}));
-  verb->add_flag("--tolerant", options->tolerant, "Repair what can be repaired without harm, and say so");
+  verb->add_flag("--tolerant", options->import.tolerant, "Repair what can be repaired without harm, and say so");
+  add_limits(*verb, options->import);
   verb->footer(
       "\nExamples:\n  etendue info kitchen.rig.json\n  etendue info room.glb --need lights --json\n  etendue info *.glb -q    # errors "
       "alone"
-      "\n  etendue info large.glb --need lights --stats    # reads the JSON chunk and nothing else");
+      "\n  etendue info large.glb --need lights --stats    # reads the JSON chunk and nothing else"
+      "\n  etendue info forest.glb --limit max_items=50M --limit max_memory=32G");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_info(common, *options); }; });
 }
 

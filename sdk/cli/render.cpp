@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "limits.h"
 #include "verbs.h"
 
 namespace etendue::cli {
@@ -12,6 +13,7 @@ namespace {
 
 struct Options {
   std::string asset, out, size = "512x512", camera, lights, mute;
+  ImportOptions import;
   double tolerance = 0.001;
   unsigned threads = 0;
   bool force = false, mitsuba_model = false;
@@ -24,7 +26,7 @@ int run_render(const Common& common, const Options& options) {
   }
   const Result<Size> size = parse_size(options.size);
   if (!size) return session.fail(size.error());
-  Result<Imported> imported = read_asset(session, options.asset);
+  Result<Imported> imported = read_asset(session, options.asset, options.import);
   if (!imported) return session.fail(imported.error());
   if (imported->diagnostics.has_errors()) return session.finish(exit_bad_input);
   Scene& scene = imported->scene;
@@ -82,6 +84,7 @@ void add_render(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--threads", options->threads, "0: every core")->capture_default_str();
   verb->add_flag("--mitsuba-model", options->mitsuba_model, "Materials and ranges as Mitsuba's scene has them");
   verb->add_flag("--force", options->force, "Replace OUT");
+  add_limits(*verb, options->import);
   verb->footer(
       "\nExamples:\n  etendue render kitchen.rig.json kitchen.exr\n  etendue render room.glb key.exr --lights key --size 1280x720");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_render(common, *options); }; });

@@ -11,6 +11,7 @@
 #include "etendue/render.h"
 #include "etendue/report.h"
 #include "exporters/mitsuba/mitsuba.h"
+#include "limits.h"
 #include "mitsuba_pictures.h"
 #include "verbs.h"
 
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::string asset, out = "etendue-report", size = "512x512", max_difference = "1%", camera, lights, mute, mitsuba, cache;
   unsigned samples = 1024, seeds = 16, threads = 0;
+  ImportOptions import;
   double seconds = 0;
   bool no_cache = false;
 };
@@ -244,7 +246,7 @@ Json result_json(const Validation& validation, const std::string& out) {
 
 int run_validate(const Common& common, const Options& options) {
   Session session("validate", common);
-  Result<Imported> imported = read_asset(session, options.asset);
+  Result<Imported> imported = read_asset(session, options.asset, options.import);
   if (!imported) return session.fail(imported.error());
   if (imported->diagnostics.has_errors()) return session.finish(exit_bad_input);
   const WorkFolder work(options.out);
@@ -297,6 +299,7 @@ void add_validate(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--cache", options->cache, "Folder for Mitsuba's pictures (default: the user's cache)");
   verb->add_flag("--no-cache", options->no_cache, "Render all of Mitsuba's pictures anew");
   verb->add_option("--threads", options->threads, "Of our renderer; 0: every core")->capture_default_str();
+  add_limits(*verb, options->import);
   verb->footer(
       "\nExit status: 0 same, 1 differs, 4 undecided.\n\nExamples:\n  etendue validate kitchen.rig.json --out report\n"
       "  etendue validate room.glb --max-diff 0.2% --spp 4096 --lights key,fill");

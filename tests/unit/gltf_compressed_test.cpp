@@ -209,12 +209,81 @@ TEST(GltfCompressed, BrokenDracoIsAnError) {
   const auto imported = read_gltf(gltf, folder);
   ASSERT_TRUE(imported.ok());
   EXPECT_TRUE(imported->diagnostics.has_errors());
-  // A header that announces more than anybody should make room for.
-  ImportOptions few;
-  few.max_items = 50;
-  const auto limited = read_gltf(draco_file(sheet(20), 12), folder, few);
-  ASSERT_TRUE(limited.ok());
-  EXPECT_TRUE(limited->diagnostics.has_errors());
+}
+
+using Stream = std::vector<std::uint8_t>;
+
+// A primitive whose compressed mesh is these bytes.
+GltfBuilder draco_stream(const Stream& stream) {
+  GltfBuilder gltf = draco_file(sheet(8), 12);
+  const int view = gltf.view(stream);
+  gltf.primitive()["extensions"]["KHR_draco_mesh_compression"]["bufferView"] = view;
+  return gltf;
+}
+Stream operator+(Stream head, const Stream& tail) {
+  head.insert(head.end(), tail.begin(), tail.end());
+  return head;
+}
+// "DRACO", the bitstream's version, triangles, the method, flags.
+Stream draco_header(std::uint8_t version, std::uint8_t method, std::uint8_t flags = 0) {
+  return {'D', 'R', 'A', 'C', 'O', version, 2, 1, method, 0, flags};
+}
+constexpr std::uint8_t sequential = 0, edgebreaker = 1, with_metadata = 0x80;
+const Stream nine_million = {0xC0, 0xA8, 0xA5, 0x04}, four_thousand_million = {0x80, 0xD0, 0xAC, 0xF3, 0x0E}, one = {1};
+
+// Bombs: streams of some forty bytes that ask for gigabytes. Each is an error that names the limit and its option before room is made.
+TEST(GltfCompressed, DracoBombsMeetALimit) {
+  const std::string place = "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression";
+  const auto expect_limit = [&](const Stream& stream, const std::string& option, const ImportOptions& options = {}) {
+    SCOPED_TRACE(option);
+    const Folder folder;
+    const auto imported = read_gltf(draco_stream(stream), folder, options);
+    ASSERT_TRUE(imported.ok());
+    ASSERT_TRUE(says(imported->diagnostics, Severity::error, "LIMIT_EXCEEDED", place));
+    for (const Diagnostic& d : imported->diagnostics.all()) {
+      if (d.code != "LIMIT_EXCEEDED") continue;
+      EXPECT_NE(d.text.find(option), std::string::npos) << d.text;
+      EXPECT_NE(d.hint.find("--limit " + option + "="), std::string::npos) << d.hint;
+    }
+  };
+  expect_limit(draco_header(2, sequential) + four_thousand_million + one, "max_items");
+  expect_limit(draco_header(2, edgebreaker) + Stream{0} + one + four_thousand_million, "max_items");
+  // No metadata of attributes, no entries, nothing below: the counts come behind it.
+  expect_limit(draco_header(2, sequential, with_metadata) + Stream{0, 0, 0} + one + four_thousand_million, "max_items");
+  // One triangle, three vertices of 255 doubles: 6120 bytes, more than the data URI and the indices leave.
+  constexpr std::uint8_t raw = 1, generic = 4, doubles = 10;
+  ImportOptions little;
+  little.max_decoded = 5000;
+  expect_limit(draco_header(2, sequential) + one + Stream{3, raw, 0, 1, 2} + Stream{1, 1, generic, doubles, 255, 0, 0, 0}, "max_decoded",
+               little);
+  // 9 million triangles, and of 255 attributes a table of corners each: 27 GB.
+  expect_limit(draco_header(2, edgebreaker) + Stream{0} + nine_million + nine_million + Stream{255}, "max_decoded");
+}
+
+TEST(GltfCompressed, DracoOfAnotherKindIsNamed) {
+  const std::string place = "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression";
+  Stream points = draco_header(2, 0), unknown = draco_header(2, 7);
+  points[7] = 0;
+  for (const Stream& stream : {draco_header(1, sequential), points, unknown, Stream{'D', 'R', 'A'}}) {
+    const Folder folder;
+    const auto imported = read_gltf(draco_stream(stream), folder);
+    ASSERT_TRUE(imported.ok());
+    EXPECT_TRUE(says(imported->diagnostics, Severity::error, "DRACO_INVALID", place));
+  }
+}
+
+// One stream that many primitives name is decoded for each of them: the limit counts all of them together.
+TEST(GltfCompressed, DecodedBytesAddUp) {
+  GltfBuilder gltf = draco_file(sheet(20), 12);
+  ImportOptions options;
+  options.max_decoded = 150'000;  // the sheet takes 722 x 12 bytes of indices and 400 x 12 of vertices, and its data URI some more
+  const Folder folder;
+  EXPECT_FALSE(read_gltf(gltf, folder, options)->diagnostics.has_errors());
+  const Json primitive = gltf.primitive();
+  for (int i = 0; i < 20; ++i) gltf.json["meshes"][0]["primitives"].push_back(primitive);
+  const auto imported = read_gltf(gltf, folder, options);
+  ASSERT_TRUE(imported.ok());
+  EXPECT_NE(all_text(imported->diagnostics).find("max_decoded"), std::string::npos);
 }
 
 #endif

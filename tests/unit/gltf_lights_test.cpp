@@ -102,5 +102,19 @@ TEST(GltfLights, ImageBasedEnvironmentIsAReference) {
   EXPECT_TRUE(says(imported->diagnostics, Severity::warning, "NOT_SHOWN", "/extensions/EXT_lights_image_based/lights/0"));
 }
 
+// Khronos' validator warns of the value; what is lost is said as well.
+TEST(GltfLights, UnknownTypesAreNamed) {
+  GltfBuilder gltf;
+  gltf.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "sun"}])");
+  gltf.json["nodes"] = Json::parse(R"([{"extensions": {"KHR_lights_punctual": {"light": 0}}}])");
+  const Folder folder;
+  const auto imported = read_gltf(gltf, folder);
+  ASSERT_TRUE(imported.ok());
+  EXPECT_TRUE(imported->scene.lights.empty());
+  EXPECT_TRUE(says(imported->diagnostics, Severity::warning, "VALUE_NOT_IN_LIST", "/extensions/KHR_lights_punctual/lights/0/type"));
+  EXPECT_TRUE(says(imported->diagnostics, Severity::warning, "NOT_REPRESENTED", "/extensions/KHR_lights_punctual/lights/0"));
+}
+
 }  // namespace
 }  // namespace etendue::test

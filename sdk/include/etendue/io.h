@@ -28,12 +28,12 @@ struct FormatInfo {
   std::string description;              // one sentence
 };
 
-// A limit that is hit is the error LIMIT_EXCEEDED, which names the limit by its name here.
+// A limit that is hit is the error LIMIT_EXCEEDED, which names the limit by its name here. The command sets it by --limit NAME=NUMBER.
 struct ImportOptions {
   Need need = Need::everything;
   bool tolerant = false;                               // a defect with a harmless repair is repaired, and a warning; else an error
   std::uint64_t max_bytes = std::uint64_t{1} << 32;    // of one input file
-  std::size_t max_items = 10'000'000;                  // of one array (vertices, indices, nodes)
+  std::size_t max_items = 10'000'000;                  // of one array (vertices, indices, nodes); of all together 8 x
   int max_depth = 256;                                 // nesting
   std::uint64_t max_pixels = std::uint64_t{1} << 28;   // of one picture
   std::uint64_t max_decoded = std::uint64_t{1} << 32;  // bytes that compressed meshes and data URIs of one asset become
