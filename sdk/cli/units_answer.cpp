@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "etendue/light_presets.h"
 #include "units.h"
 
 namespace etendue::cli {
@@ -12,7 +13,7 @@ namespace {
 
 Error error(const char* code, std::string text, std::string hint = {}) { return {code, std::move(text), {}, std::move(hint), {}}; }
 
-Answer number(double value, const std::string& unit) { return {{value}, unit, fmt::format("{} {}", value, unit), {}, {}, {}, {}}; }
+Answer number(double value, const std::string& unit) { return {{value}, unit, fmt::format("{} {}", value, unit), {}, {}, {}, {}, {}}; }
 
 Error no_way(std::string_view given, const Target& target) {
   return error("DIMENSION_MISMATCH", fmt::format("{} has no {}", given, target.name));
@@ -56,6 +57,27 @@ Result<Answer> colour_answer(const Chromaticity& xy, const Target& target, const
   return a;
 }
 
+// ---- Units of one dimension ----
+
+std::string in_si(const NamedUnit& unit) {
+  const std::string_view si = si_unit_of(unit.dimension);
+  return unit.reciprocal ? fmt::format("{}/x {}", unit.times, si) : fmt::format("{} {}", unit.to_si(1), si);
+}
+// Between units of one dimension there is a factor, or a reciprocal, and no light.
+Explanation explain_units(const WrittenQuantity& w, const Target& target) {
+  const NamedUnit &given = w.unit, &wanted = target.unit;
+  Explanation why;
+  if (given == wanted)
+    why.formula = "y = x";
+  else if (given.reciprocal || wanted.reciprocal)
+    why.formula = fmt::format("y = {}/x", given.reciprocal ? given.times : wanted.times);
+  else
+    why.formula = fmt::format("y = x*{}/{}", given.times * wanted.over, given.over * wanted.times);
+  why.symbols = {{"x", w.number, ""}};
+  why.notes = {fmt::format("what was written is in units of {}, {} is {}", in_si(given), target.name, in_si(wanted))};
+  return why;
+}
+
 // ---- Each kind of what is written ----
 
 struct Answering {
@@ -64,7 +86,7 @@ struct Answering {
   const UnitsOptions& options;
 
   Result<Answer> operator()(const WrittenQuantity& w) const {
-    const AnyQuantity& given = w.quantity;
+    const AnyQuantity given = w.quantity();
     if (target.kind != Target::Kind::unit) {
       if (given.dimension != Dimension::temperature) return no_way(name_of(given.dimension), target);
       const Result<Chromaticity> xy = planckian(given.si);
@@ -80,18 +102,22 @@ struct Answering {
                    fmt::format("expected one efficacy, found {} lm/W and --efficacy {}", *w.efficacy_lm_W, options.efficacy));
     if (w.efficacy_lm_W) light.efficacy_lm_W = w.efficacy_lm_W;
 
-    const Result<Conversion> conversion = Conversion::between(given.dimension, target.unit.dimension, light);
+    const Result<Conversion> conversion = Conversion::between(w.unit, target.unit, light);
     if (!conversion) return conversion.error();
-    const Result<double> si = (*conversion)(given.si);
-    if (!si) return si.error();
-    const double value = target.unit.from_si(*si);
-    if (!std::isfinite(value)) return error("NUMBER_INVALID", fmt::format("{} has no value in {}", to_string(given), target.name));
-    Answer a = number(value, target.name);
+    const Result<double> value = (*conversion)(w.number);
+    if (!value) return value.error();
+    Answer a = number(*value, target.name);
     a.efficacy_lm_W = conversion->efficacy_lm_W();
-    if (options.explain) {
+    if (a.efficacy_lm_W) a.efficacy = w.efficacy_lm_W ? fmt::format("{} lm/W", *w.efficacy_lm_W) : options.efficacy;
+    const bool same = given.dimension == target.unit.dimension && light.given_distance_m == light.wanted_distance_m;
+    if (options.explain && same) {
+      a.explanation = explain_units(w, target);
+    } else if (options.explain) {
       const Result<Explanation> why = explain(given, target.unit.dimension, light);
       if (!why) return why.error();
       a.explanation = *why;
+      if (const Result<EfficacyPolicy> policy = efficacy_policy(a.efficacy); a.efficacy_lm_W && policy && !policy->source.empty())
+        a.explanation->notes.push_back(fmt::format("efficacy of {}: {} lm/W; {}", policy->name, policy->lm_W, policy->source));
     }
     return a;
   }
@@ -148,7 +174,7 @@ struct Answering {
   Result<Answer> operator()(const ColourTemperature& t) const {
     if (target.kind == Target::Kind::unit) {
       if (target.unit.dimension == Dimension::temperature && t.duv == 0)
-        return (*this)(WrittenQuantity{{Dimension::temperature, t.kelvin}, {}, {}});
+        return (*this)(WrittenQuantity{t.kelvin, {Dimension::temperature}});
       return no_way("a temperature with Duv", target);
     }
     const Result<Chromaticity> xy = to_chromaticity(t);
@@ -182,6 +208,10 @@ Result<Target> target_named(const std::string& name) {
     return e;
   }
   return Target{Target::Kind::unit, name, *unit};
+}
+
+Result<Written> read_quantity(std::string_view text, const UnitsOptions& options, Diagnostics& told) {
+  return options.clamp ? parse(text, told) : parse(text);
 }
 
 Result<Answer> answer(const Written& given, const Target& target, const LightSetup& setup, const UnitsOptions& options) {

@@ -4,15 +4,23 @@
 #include <algorithm>
 #include <array>
 
+#include "etendue/light_presets.h"
+#include "number_text.h"
 #include "units.h"
 
 namespace etendue::cli {
 namespace {
 
-constexpr std::array<std::string_view, 12> all_sizes{"radius",  "width",       "height",       "length",           "caps", "inner", "outer",
-                                                     "opening", "width-angle", "height-angle", "angular-diameter", "area"};
+constexpr std::array<std::string_view, 13> all_sizes{"radius",  "width",       "height",       "length",           "caps", "inner", "outer",
+                                                     "opening", "width-angle", "height-angle", "angular-diameter", "area", "points"};
 
 Error error(const char* code, std::string text, std::string hint = {}) { return {code, std::move(text), {}, std::move(hint), {}}; }
+
+Error of_option(const std::string& name, Error e) {
+  e.text = fmt::format("--{}: {}", name, e.text);
+  e.where.pointer.clear();
+  return e;
+}
 
 // Reads sizes and remembers which, so that one that says nothing about the shape is told.
 class Sizes {
@@ -38,6 +46,20 @@ class Sizes {
     if (!metres) fail(of_option("area", metres.error()));
     return metres ? *metres : 0;
   }
+  // "0m,0m 2m,0m 2m,60cm": corners with a blank between, coordinates with a comma.
+  std::vector<Vec2d> points() {
+    const std::string text = take("points", "SIZE_MISSING");
+    std::vector<Vec2d> corners;
+    for (std::string_view rest = trimmed(text); !rest.empty() && !failed_;) {
+      const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
+      corners.push_back(corner(rest.substr(0, end)));
+      rest = trimmed(rest.substr(end));
+    }
+    if (!text.empty() && corners.size() < 3)
+      fail(error("SIZE_MISSING", fmt::format("--points: expected three corners or more, found {}", corners.size()),
+                 "such as \"0m,0m 2m,0m 2m,60cm\""));
+    return corners;
+  }
   Caps caps() {
     if (!has("caps")) return Caps::round;
     const std::string name = take("caps", "");
@@ -62,9 +84,15 @@ class Sizes {
   void fail(Error e) {
     if (!failed_) failed_ = std::move(e);
   }
-  static Error of_option(const std::string& name, Error e) {
-    e.text = fmt::format("--{}: {}", name, e.text);
-    return e;
+  Vec2d corner(std::string_view text) {
+    const std::size_t comma = text.find(',');
+    if (comma == std::string_view::npos) {
+      fail(error("NUMBER_INVALID", fmt::format("--points: expected a corner such as 2m,60cm, found \"{}\"", text)));
+      return {};
+    }
+    const Result<double> x = parse_si(text.substr(0, comma), Dimension::length), y = parse_si(text.substr(comma + 1), Dimension::length);
+    if (!x || !y) fail(of_option("points", x ? y.error() : x.error()));
+    return {x ? *x : 0, y ? *y : 0};
   }
   std::string take(const std::string& name, const char* missing) {
     taken_.push_back(name);
@@ -107,6 +135,7 @@ Result<Shape> shape_of(const UnitsOptions& options, const Conventions& conventio
     const double width = sizes.length("width");
     return Shape{RectShape{width, sizes.length("height")}};
   }
+  if (name == "polygon") return Shape{PolygonShape{sizes.points()}};
   if (name == "tube") {
     const double length = sizes.length("length"), radius = sizes.length("radius");
     return Shape{TubeShape{length, radius, sizes.caps()}};
@@ -116,7 +145,7 @@ Result<Shape> shape_of(const UnitsOptions& options, const Conventions& conventio
   if (name == "distant") return Shape{DistantShape{sizes.angle("angular-diameter")}};
   if (name == "environment") return Shape{EnvironmentShape{}};
   return error("SHAPE_UNKNOWN", fmt::format("--shape: \"{}\" is no shape", name),
-               "one of point, spot, frustum, sphere, disk, rect, tube, line, mesh, distant, environment");
+               "one of point, spot, frustum, sphere, disk, rect, polygon, tube, line, mesh, distant, environment");
 }
 
 Status set_meter(const std::string& text, LightSetup& setup) {
@@ -156,18 +185,16 @@ Result<LightSetup> setup_of(const UnitsOptions& options) {
   }
   if (const std::optional<Error> wrong = sizes.wrong()) return *wrong;
 
-  for (const auto& [name, text, dimension] :
-       {std::tuple{"distance", &options.distance, Dimension::length}, std::tuple{"efficacy", &options.efficacy, Dimension::efficacy}}) {
-    if (text->empty()) continue;
-    const Result<double> si = parse_si(*text, dimension);
-    if (!si) {
-      Error e = si.error();
-      e.text = fmt::format("--{}: {}", name, e.text);
-      return e;
-    }
-    (dimension == Dimension::length ? setup.wanted_distance_m : setup.efficacy_lm_W) = *si;
+  if (!options.distance.empty()) {
+    const Result<double> distance = parse_si(options.distance, Dimension::length);
+    if (!distance) return of_option("distance", distance.error());
+    setup.given_distance_m = setup.wanted_distance_m = *distance;
   }
-  setup.given_distance_m = setup.wanted_distance_m;
+  if (!options.efficacy.empty()) {
+    const Result<EfficacyPolicy> policy = efficacy_policy(options.efficacy);
+    if (!policy) return of_option("efficacy", policy.error());
+    setup.efficacy_lm_W = policy->lm_W;
+  }
   return setup;
 }
 

@@ -106,31 +106,28 @@ std::string text_of(const Answer& a) {
 RowConverter::RowConverter(Target target, LightSetup setup, const UnitsOptions& options)
     : target_(std::move(target)), setup_(std::move(setup)), options_(options) {}
 
-const NamedUnit* RowConverter::unit_of(std::string_view spelling) {
-  if (spelling != last_spelling_ || last_unit_ == nullptr) {
-    last_spelling_ = spelling;
-    last_unit_ = find_unit(spelling);
-  }
-  return last_unit_;
+const Conversion* RowConverter::conversion_from(std::string_view spelling) {
+  if (spelling == last_spelling_) return last_;
+  const NamedUnit* const unit = find_unit(spelling);
+  last_spelling_ = spelling;
+  last_ = nullptr;
+  if (unit == nullptr || target_.kind != Target::Kind::unit) return last_;
+  auto [entry, is_new] = conversions_.try_emplace(unit);
+  if (is_new)
+    if (const Result<Conversion> made = Conversion::between(*unit, target_.unit, setup_)) entry->second = *made;
+  if (entry->second) last_ = &*entry->second;
+  return last_;
 }
 
 std::optional<double> RowConverter::quickly(double value, std::string_view spelling) {
-  const NamedUnit* const unit = unit_of(spelling);
-  if (unit == nullptr || target_.kind != Target::Kind::unit) return {};
-  const auto d = static_cast<std::size_t>(unit->dimension);
-  if (!tried_[d]) {
-    tried_[d] = true;
-    if (const Result<Conversion> made = Conversion::between(unit->dimension, target_.unit.dimension, setup_)) conversions_[d] = *made;
-  }
-  if (!conversions_[d]) return {};
-  const Result<double> si = (*conversions_[d])(unit->to_si(value));
-  if (!si) return {};
-  const double result = target_.unit.from_si(*si);
-  return std::isfinite(result) ? std::optional(result) : std::nullopt;
+  const Conversion* const conversion = conversion_from(spelling);
+  if (conversion == nullptr) return {};
+  const Result<double> result = (*conversion)(value);
+  return result ? std::optional(*result) : std::nullopt;
 }
 
-Result<Answer> RowConverter::slowly(std::string_view text) const {
-  const Result<Written> written = parse(text);
+Result<Answer> RowConverter::slowly(std::string_view text, Diagnostics& told) const {
+  const Result<Written> written = read_quantity(text, options_, told);
   if (!written) return written.error();
   return answer(*written, target_, setup_, options_);
 }
@@ -152,10 +149,13 @@ void RowConverter::csv(std::string_view line, std::string& out) {
   }
   std::string text = take_field(line);
   while (!line.empty()) text += " " + take_field(line);
-  const Result<Answer> found = slowly(text);
+  Diagnostics told;
+  const Result<Answer> found = slowly(text, told);
   if (found) {
     append_field(out, text_of(*found));
-    out += ',' + found->unit + ",\n";
+    out += ',' + found->unit + ',';
+    for (const Diagnostic& d : told.all()) append_field(out, d.code + ": " + d.text);
+    out += '\n';
     return;
   }
   ++refused;
@@ -178,17 +178,19 @@ void RowConverter::json(std::string_view line, std::string& out) {
       return;
     }
   }
+  Diagnostics told;
   const Json read = Json::parse(line, nullptr, false);
   Result<Answer> found =
       Error{"JSON_INVALID", fmt::format("expected {{\"value\": 1200, \"unit\": \"lm\"}} or \"1200 lm\", found {}", line), {}, {}, {}};
   if (read.is_string())
-    found = slowly(read.get_ref<const std::string&>());
+    found = slowly(read.get_ref<const std::string&>(), told);
   else if (read.is_object() && read.size() == 2 && read.contains("value") && read["value"].is_number() && read.contains("unit") &&
            read["unit"].is_string())
-    found = slowly(fmt::format("{} {}", read["value"].get<double>(), read["unit"].get_ref<const std::string&>()));
+    found = slowly(fmt::format("{} {}", read["value"].get<double>(), read["unit"].get_ref<const std::string&>()), told);
   Json written;
   if (found) {
     written = {{"value", found->value.size() == 1 ? Json(found->value[0]) : Json(found->value)}, {"unit", found->unit}};
+    if (!told.all().empty()) written["clamped"] = true;
   } else {
     ++refused;
     written = {{"error", {{"code", found.error().code}, {"text", found.error().text}}}};

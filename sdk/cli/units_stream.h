@@ -1,8 +1,8 @@
 // Rows of quantities, converted one by one at the pace of reading and printing them.
 #pragma once
 
-#include <array>
 #include <cstdio>
+#include <map>
 
 #include "etendue/unit_names.h"
 #include "units.h"
@@ -24,17 +24,15 @@ class RowConverter {
  private:
   // The value in the target's unit, by the shortest way; nothing where the long way has to be gone.
   std::optional<double> quickly(double value, std::string_view unit);
-  const NamedUnit* unit_of(std::string_view spelling);
-  Result<Answer> slowly(std::string_view text) const;
+  const Conversion* conversion_from(std::string_view spelling);
+  Result<Answer> slowly(std::string_view text, Diagnostics& told) const;
 
   Target target_;
   LightSetup setup_;
   const UnitsOptions& options_;
-  // Conversions by the dimension of what is given, made when first met.
-  std::array<std::optional<Conversion>, 18> conversions_;
-  std::array<bool, 18> tried_{};
+  std::map<const NamedUnit*, std::optional<Conversion>> conversions_;  // made when a unit is first met; nothing where it has none
   std::string last_spelling_;
-  const NamedUnit* last_unit_ = nullptr;
+  const Conversion* last_ = nullptr;  // of that spelling
 };
 
 // All of `in` to `out`, whole blocks at a time. Errors: LINE_TOO_LONG (1 MiB), FILE_UNREADABLE, FILE_UNWRITABLE, CANCELLED.

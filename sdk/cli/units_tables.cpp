@@ -1,6 +1,8 @@
 // What `units` knows: its units, its formulas, and the tables of photographers.
 #include <fmt/format.h>
 
+#include "etendue/dialect.h"
+#include "etendue/light_presets.h"
 #include "units.h"
 
 namespace etendue::cli {
@@ -61,6 +63,46 @@ void print_calibrations(Session& session) {
   }
 }
 
+std::string range(double low, double high) { return low == high ? fmt::format("{:g}", low) : fmt::format("{:g} to {:g}", low, high); }
+
+void print_temperatures(Session& session) {
+  session.print(fmt::format("{:<28} {:<15} {}", "light", "K", "source"));
+  for (const TemperaturePreset& p : temperature_presets()) {
+    session.print(fmt::format("{:<28} {:<15} {}", p.name, range(p.low_K, p.high_K), p.source));
+    session.result.push_back({{"name", p.name}, {"low_K", p.low_K}, {"high_K", p.high_K}, {"source", p.source}});
+  }
+}
+
+void print_efficacies(Session& session) {
+  session.print(fmt::format("{:<18} {:<15} {:<18} {}", "name", "lm/W", "of watts of", "source"));
+  for (const EfficacyPreset& p : efficacy_presets()) {
+    const char* const watts = p.watts == WattsOf::electricity ? "electricity" : "visible radiation";
+    session.print(fmt::format("{:<18} {:<15} {:<18} {}", p.name, range(p.low_lm_W, p.high_lm_W), watts, p.source));
+    session.result.push_back(
+        {{"name", p.name}, {"low_lm_W", p.low_lm_W}, {"high_lm_W", p.high_lm_W}, {"watts_of", watts}, {"source", p.source}});
+  }
+}
+
+void print_dialects(Session& session) {
+  session.print(fmt::format("{:<12} {:<34} {}", "name", "program", "source"));
+  for (const DialectInfo& d : dialects()) {
+    session.print(fmt::format("{:<12} {:<34} {}", d.name, d.program, d.source));
+    session.result.push_back({{"name", d.name}, {"program", d.program}, {"source", d.source}, {"unverified", d.unverified}});
+  }
+}
+
+// What the same lumens become, typed into each program's spot of 60 degrees that is soft from its middle on.
+void print_spread(Session& session) {
+  session.print(
+      fmt::format("1000 lm, spot of 60 degrees, inner angle 0\n{:<28} {:<12} {:<46} {:>8}", "program", "stated", "divides by", "cd"));
+  const Result<std::vector<SpreadRow>> rows = interoperability_spread(1000, {0, pi / 6});
+  for (const SpreadRow& row : *rows) {
+    session.print(fmt::format("{:<28} {:<12} {:<46} {:>8.1f}", row.program, row.stated, row.divides_by, row.candela));
+    session.result.push_back(
+        {{"program", row.program}, {"stated", row.stated}, {"divides_by", row.divides_by}, {"intensity_cd", row.candela}});
+  }
+}
+
 }  // namespace
 
 void list_units(Session& session) {
@@ -82,15 +124,21 @@ void list_units(Session& session) {
 
 Status print_table(Session& session, const std::string& name) {
   session.result = Json::array();
+  std::string names;
   for (const auto& [known, print] : {std::pair{"formulas", &print_formulas},
                                      {"ev", &print_ev},
                                      {"sunny16", &print_sunny_sixteen},
-                                     {"calibrations", &print_calibrations}}) {
+                                     {"calibrations", &print_calibrations},
+                                     {"temperatures", &print_temperatures},
+                                     {"efficacies", &print_efficacies},
+                                     {"dialects", &print_dialects},
+                                     {"spread", &print_spread}}) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", known);
     if (name != known) continue;
     print(session);
     return Done{};
   }
-  return Error{"USAGE", fmt::format("--table: expected formulas, ev, sunny16 or calibrations, found \"{}\"", name), {}, {}, {}};
+  return Error{"USAGE", fmt::format("--table: expected one of {}, found \"{}\"", names, name), {}, {}, {}};
 }
 
 }  // namespace etendue::cli

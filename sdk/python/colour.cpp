@@ -1,4 +1,5 @@
 #include "etendue/colour.h"
+#include "etendue/temperature.h"
 
 #include "elementwise.h"
 #include "module.h"
@@ -15,6 +16,7 @@ void bind_colour(nb::module_& m) {
         return to_chromaticity(ColourTemperature{kelvin, duv});
       },
       "kelvin", "duv");
+  def_elementwise<1>(m, "clamped_temperature", clamped_temperature, "kelvin");
   def_elementwise<1>(m, "mired_of", mired_of, "kelvin");
   def_elementwise<2>(m, "shifted_by_mired", shifted_by_mired, "kelvin", "shift_mired");
 

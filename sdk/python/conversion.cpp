@@ -64,17 +64,11 @@ void bind_conversion(nb::module_& m) {
   m.def(
       "conversion",
       [](const NamedUnit& given, const NamedUnit& wanted, const LightSetup& setup) {
-        return unwrap(Conversion::between(given.dimension, wanted.dimension, setup));
+        return unwrap(Conversion::between(given, wanted, setup));
       },
       nb::arg("given"), nb::arg("wanted"), nb::arg("setup"));
-  def_elementwise<1, Conversion, NamedUnit, NamedUnit>(
-      m, "converted",
-      [](double x, const Conversion& c, const NamedUnit& given, const NamedUnit& wanted) -> Result<double> {
-        const Result<double> si = c(given.to_si(x));
-        if (!si) return si.error();
-        return wanted.from_si(*si);
-      },
-      "value", "conversion", "given", "wanted");
+  def_elementwise<1, Conversion>(
+      m, "converted", [](double x, const Conversion& c) { return c(x); }, "value", "conversion");
 
   m.def(
       "explain_conversion",

@@ -90,6 +90,20 @@ void bind_dialect(nb::module_& m) {
       },
       nb::arg("stated"), nb::arg("from_dialect"), nb::arg("to_dialect"), nb::arg("form"));
   m.def(
+      "suspected_compat_lights",
+      [](std::string_view generator, const std::vector<std::pair<ShapeNumbers, double>>& given) {
+        std::vector<Light> lights(given.size());
+        for (std::size_t i = 0; i < given.size(); ++i) {
+          lights[i].shape = shape_of(given[i].first);
+          lights[i].emission.given =
+              std::holds_alternative<DistantShape>(lights[i].shape) ? Emission::Given::illuminance : Emission::Given::intensity;
+          lights[i].emission.value = given[i].second;
+        }
+        const std::optional<Diagnostic> warning = suspected_compat_lights(generator, lights);
+        return warning ? std::optional(std::make_tuple(warning->text, warning->hint)) : std::nullopt;
+      },
+      nb::arg("generator"), nb::arg("lights"), "Text and hint of the warning.");
+  m.def(
       "interoperability_spread",
       [](double flux_lm, double inner_rad, double outer_rad) {
         std::vector<std::tuple<std::string, std::string, std::string, double>> rows;

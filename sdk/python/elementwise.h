@@ -5,6 +5,7 @@
 #include "errors.h"
 #include "etendue/camera.h"
 #include "etendue/colour.h"
+#include "etendue/temperature.h"
 #include "etendue/vec.h"
 
 #include <nanobind/nanobind.h>
@@ -31,6 +32,7 @@ using NewArray = nb::ndarray<nb::numpy, T, nb::c_contig>;
 inline std::array<double, 1> row_of(double x) { return {x}; }
 inline std::array<double, 2> row_of(const Chromaticity& xy) { return {xy.x, xy.y}; }
 inline std::array<double, 2> row_of(const ColourTemperature& t) { return {t.kelvin, t.duv}; }
+inline std::array<double, 2> row_of(const ClampedTemperature& t) { return {t.kelvin, t.clamped ? 1.0 : 0.0}; }
 inline std::array<double, 2> row_of(const Uv& uv) { return {uv.u, uv.v}; }
 inline std::array<double, 2> row_of(const SensorExposure& e) { return {e.illuminance_lx, e.exposure_lx_s}; }
 inline std::array<double, 3> row_of(const Rgb& rgb) { return {rgb.x, rgb.y, rgb.z}; }

@@ -23,7 +23,8 @@ constexpr int dimension_count = static_cast<int>(Dimension::stop) + 1;
 // What was written: its kind, and its numbers.
 struct AsTuple {
   nb::object operator()(const WrittenQuantity& q) const {
-    return nb::make_tuple("quantity", static_cast<int>(q.quantity.dimension), q.quantity.si, q.distance_m, q.efficacy_lm_W);
+    const AnyQuantity in_si = q.quantity();
+    return nb::make_tuple("quantity", static_cast<int>(in_si.dimension), in_si.si, q.distance_m, q.efficacy_lm_W, q.number, q.unit);
   }
   nb::object operator()(const CameraSettings& camera) const { return nb::make_tuple("camera", settings_numbers(camera)); }
   nb::object operator()(const ColourTemperature& t) const { return nb::make_tuple("temperature", t.kelvin, t.duv); }
@@ -67,6 +68,17 @@ void bind_quantities(nb::module_& m) {
   m.def(
       "parse", [](std::string_view text) { return std::visit(AsTuple(), unwrap(parse(text))); }, nb::arg("text"),
       nb::sig("def parse(text: str) -> tuple[typing.Any, ...]"), "What was written, and its numbers.");
+  m.def(
+      "parse_clamping",
+      [](std::string_view text) {
+        Diagnostics clamped;
+        const Written written = unwrap(parse(text, clamped));
+        std::vector<std::string> warnings;
+        for (const Diagnostic& d : clamped.all()) warnings.push_back(d.text);
+        return nb::make_tuple(std::visit(AsTuple(), written), warnings);
+      },
+      nb::arg("text"), nb::sig("def parse_clamping(text: str) -> tuple[tuple[typing.Any, ...], list[str]]"),
+      "The same with temperatures clamped, and what there is to warn of.");
   m.def(
       "quantity_text",
       [](int dimension, double si) {

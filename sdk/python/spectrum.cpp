@@ -4,6 +4,7 @@
 #include "etendue/light_presets.h"
 #include "module.h"
 
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
@@ -62,6 +63,13 @@ void bind_spectrum(nb::module_& m) {
   m.def("efficacy_presets", [] { return rows_of(efficacy_presets()); });
   m.def(
       "efficacy_preset", [](std::string_view name) { return row(unwrap(efficacy_preset(name))); }, nb::arg("name"));
+  m.def(
+      "efficacy_policy",
+      [](std::string_view text) {
+        const EfficacyPolicy policy = unwrap(efficacy_policy(text));
+        return std::make_tuple(policy.lm_W, policy.name, policy.source);
+      },
+      nb::arg("text"));
 }
 
 }  // namespace etendue::python

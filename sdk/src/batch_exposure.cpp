@@ -2,6 +2,7 @@
 #include "etendue/batch.h"
 
 #include "batch_error.h"
+#include "parameter_error.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "batch_exposure.cpp"  // this file: compiled again for each instruction set
@@ -94,7 +95,8 @@ HWY_EXPORT(Ev100OfLuminance);
 
 Status usable(const Calibration& calibration) {
   if (calibration.meter_k > 0 && std::isfinite(calibration.meter_k)) return Done{};
-  return Error{"CALIBRATION_INVALID", fmt::format("expected a meter's K above 0 and finite, found {}", calibration.meter_k), {}, {}, {}};
+  return parameter_error("calibration", "CALIBRATION_INVALID",
+                         fmt::format("expected a meter's K above 0 and finite, found {}", calibration.meter_k));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "etendue/camera.h"
 
 #include "edit_distance.h"
+#include "parameter_error.h"
 
 #include <fmt/format.h>
 
@@ -31,36 +32,33 @@ constexpr std::array<SunnySixteen, 6> all_skies{{{22, "snow and sand", "dark wit
                                                  {5.6, "heavily overcast", "none"},
                                                  {4, "open shade or sunset", "none"}}};
 
-Error missing(std::string_view what, std::string_view hint) {
-  return {"CAMERA_SETTING_MISSING", fmt::format("expected {}, found none", what), {}, std::string(hint), {}};
+Error missing(std::string_view setting, std::string_view what, std::string hint) {
+  return parameter_error(setting, "CAMERA_SETTING_MISSING", fmt::format("expected {}, found none", what), std::move(hint));
 }
-Error ambiguous(std::string_view first, std::string_view second) {
-  return {"CAMERA_SETTING_AMBIGUOUS", fmt::format("expected either {} or {}, found both", first, second), {}, {}, {}};
+Error ambiguous(std::string_view setting, std::string_view first, std::string_view second) {
+  return parameter_error(setting, "CAMERA_SETTING_AMBIGUOUS", fmt::format("expected either {} or {}, found both", first, second));
 }
 // A positive finite number is itself, everything else an error that names the setting.
-Result<double> positive(std::string_view what, double value) {
+Result<double> positive(std::string_view setting, std::string_view what, double value) {
   if (value > 0 && std::isfinite(value)) return value;
-  return Error{"CAMERA_SETTING_INVALID", fmt::format("expected {} above 0 and finite, found {}", what, value), {}, {}, {}};
-}
-Result<double> finite(std::string_view what, double value) {
-  if (std::isfinite(value)) return value;
-  return Error{"CAMERA_SETTING_INVALID", fmt::format("expected {} that is finite, found {}", what, value), {}, {}, {}};
+  return parameter_error(setting, "CAMERA_SETTING_INVALID", fmt::format("expected {} above 0 and finite, found {}", what, value));
 }
 
 Result<double> aperture(const CameraSettings& camera) {
-  if (camera.f_number && camera.t_stop) return ambiguous("an f-number", "a T-stop");
-  if (camera.f_number) return positive("an f-number", *camera.f_number);
-  if (camera.t_stop) return positive("a T-stop", *camera.t_stop);
-  return missing("an f-number or a T-stop", "for example f/2.8");
+  if (camera.f_number && camera.t_stop) return ambiguous("t_stop", "an f-number", "a T-stop");
+  if (camera.f_number) return positive("f_number", "an f-number", *camera.f_number);
+  if (camera.t_stop) return positive("t_stop", "a T-stop", *camera.t_stop);
+  return missing("f_number", "an f-number or a T-stop", "for example f/2.8");
 }
 
 // D log2(10) - EC: by how many stops filters and compensation darken the picture.
 Result<double> darkening_stop(const CameraSettings& camera) {
   if (!(camera.nd_density >= 0 && std::isfinite(camera.nd_density)))
-    return Error{
-        "CAMERA_SETTING_INVALID", fmt::format("expected a filter's density from 0 upwards, found {}", camera.nd_density), {}, {}, {}};
-  if (const Result<double> compensation = finite("an exposure compensation", camera.compensation_stop); !compensation)
-    return compensation.error();
+    return parameter_error("nd_density", "CAMERA_SETTING_INVALID",
+                           fmt::format("expected a filter's density from 0 upwards, found {}", camera.nd_density));
+  if (!std::isfinite(camera.compensation_stop))
+    return parameter_error("compensation_stop", "CAMERA_SETTING_INVALID",
+                           fmt::format("expected an exposure compensation that is finite, found {}", camera.compensation_stop));
   return camera.nd_density * std::log2(10) - camera.compensation_stop;
 }
 
@@ -69,20 +67,19 @@ double power_of_two(double ev) { return std::exp2(std::clamp(ev, -1000.0, 1000.0
 }  // namespace
 
 Result<double> shutter_time(const CameraSettings& camera) {
-  if (camera.shutter_s && camera.shutter_angle_rad) return ambiguous("a shutter time", "a shutter angle");
-  if (camera.shutter_s) return positive("a shutter time in seconds", *camera.shutter_s);
-  if (!camera.shutter_angle_rad) return missing("a shutter time or a shutter angle", "for example 1/60 s, or 180 deg @ 24 fps");
+  if (camera.shutter_s && camera.shutter_angle_rad) return ambiguous("shutter_angle_rad", "a shutter time", "a shutter angle");
+  if (camera.shutter_s) return positive("shutter_s", "a shutter time in seconds", *camera.shutter_s);
+  if (!camera.shutter_angle_rad)
+    return missing("shutter_s", "a shutter time or a shutter angle", "for example 1/60 s, or 180 deg @ 24 fps");
   const double angle_rad = *camera.shutter_angle_rad;
   if (!(angle_rad > 0 && angle_rad <= 2 * pi))
-    return Error{"CAMERA_SETTING_INVALID",
-                 fmt::format("expected a shutter angle above 0 and up to 360 degrees, found {} degrees", degrees.of({angle_rad})),
-                 {},
-                 {},
-                 {}};
-  if (!camera.frames_per_s) return missing("a frame rate beside the shutter angle", "for example 180 deg @ 24 fps");
-  const Result<double> rate = positive("a frame rate", *camera.frames_per_s);
+    return parameter_error(
+        "shutter_angle_rad", "CAMERA_SETTING_INVALID",
+        fmt::format("expected a shutter angle above 0 and up to 360 degrees, found {} degrees", degrees.of({angle_rad})));
+  if (!camera.frames_per_s) return missing("frames_per_s", "a frame rate beside the shutter angle", "for example 180 deg @ 24 fps");
+  const Result<double> rate = positive("frames_per_s", "a frame rate", *camera.frames_per_s);
   if (!rate) return rate.error();
-  return positive("a shutter time in seconds", angle_rad / (2 * pi * *rate));
+  return positive("shutter_s", "a shutter time in seconds", angle_rad / (2 * pi * *rate));
 }
 
 Result<double> ev_s(const CameraSettings& camera) {
@@ -97,8 +94,8 @@ Result<double> ev_s(const CameraSettings& camera) {
 Result<double> ev100(const CameraSettings& camera) {
   const Result<double> without_iso = ev_s(camera);
   if (!without_iso) return without_iso.error();
-  if (!camera.iso) return missing("a sensitivity", "for example ISO 100; without it only EV_S is known");
-  const Result<double> s = positive("a sensitivity (ISO)", *camera.iso);
+  if (!camera.iso) return missing("iso", "a sensitivity", "for example ISO 100; without it only EV_S is known");
+  const Result<double> s = positive("iso", "a sensitivity (ISO)", *camera.iso);
   if (!s) return s.error();
   return *without_iso - std::log2(*s / 100);
 }
@@ -119,11 +116,8 @@ Result<Calibration> calibration(std::string_view name) {
     if (known.name == name) return known;
     candidates.push_back({std::string(known.name), std::string(known.name)});
   }
-  return Error{"CALIBRATION_UNKNOWN",
-               fmt::format("\"{}\" is no camera calibration", name),
-               {},
-               fmt::format("nearest: {}", fmt::join(nearest_candidates(name, candidates, 3), ", ")),
-               {}};
+  return parameter_error("calibration", "CALIBRATION_UNKNOWN", fmt::format("\"{}\" is no camera calibration", name),
+                         fmt::format("nearest: {}", fmt::join(nearest_candidates(name, candidates, 3), ", ")));
 }
 
 double luminance_of_ev100(double ev100, const Calibration& calibration) { return power_of_two(ev100) * calibration.meter_k / 100; }
@@ -131,21 +125,17 @@ double illuminance_of_ev100(double ev100, const Calibration& calibration) { retu
 
 Result<double> ev100_of_luminance(double luminance_cd_m2, const Calibration& calibration) {
   if (!(luminance_cd_m2 > 0 && std::isfinite(luminance_cd_m2)))
-    return Error{"LUMINANCE_NOT_POSITIVE",
-                 fmt::format("expected a luminance above 0 and finite, found {} cd/m2: it has no exposure value", luminance_cd_m2),
-                 {},
-                 {},
-                 {}};
+    return parameter_error(
+        "luminance_cd_m2", "LUMINANCE_NOT_POSITIVE",
+        fmt::format("expected a luminance above 0 and finite, found {} cd/m2: it has no exposure value", luminance_cd_m2));
   return std::log2(luminance_cd_m2) - std::log2(calibration.meter_k / 100);
 }
 
 Result<double> ev100_of_illuminance(double illuminance_lx, const Calibration& calibration) {
   if (!(illuminance_lx > 0 && std::isfinite(illuminance_lx)))
-    return Error{"ILLUMINANCE_NOT_POSITIVE",
-                 fmt::format("expected an illuminance above 0 and finite, found {} lx: it has no exposure value", illuminance_lx),
-                 {},
-                 {},
-                 {}};
+    return parameter_error(
+        "illuminance_lx", "ILLUMINANCE_NOT_POSITIVE",
+        fmt::format("expected an illuminance above 0 and finite, found {} lx: it has no exposure value", illuminance_lx));
   return std::log2(illuminance_lx) - std::log2(calibration.meter_c / 100);
 }
 
@@ -180,19 +170,19 @@ Result<SensorExposure> sensor_exposure(double luminance_cd_m2, const CameraSetti
   const Result<double> darker = darkening_stop(camera);
   if (!darker) return darker.error();
   if (!(luminance_cd_m2 >= 0 && std::isfinite(luminance_cd_m2)))
-    return Error{
-        "LUMINANCE_NEGATIVE", fmt::format("expected a luminance from 0 upwards and finite, found {} cd/m2", luminance_cd_m2), {}, {}, {}};
+    return parameter_error("luminance_cd_m2", "LUMINANCE_NEGATIVE",
+                           fmt::format("expected a luminance from 0 upwards and finite, found {} cd/m2", luminance_cd_m2));
   const double q = lens_q / (camera.t_stop ? typical_lens.transmission : 1);
   const double illuminance_lx = q * luminance_cd_m2 / (*n * *n) * std::pow(10, -camera.nd_density);
   return SensorExposure{illuminance_lx, illuminance_lx * *t};
 }
 
 Result<double> cell_energy(double exposure_lx_s, const Sensor& sensor) {
-  for (const auto& [what, value] : {std::pair{"a sensor's width in metres", sensor.width_m},
-                                    {"a sensor's height in metres", sensor.height_m},
-                                    {"a sensor's number of columns", sensor.columns},
-                                    {"a sensor's number of rows", sensor.rows}})
-    if (const Result<double> checked = positive(what, value); !checked) return checked.error();
+  for (const auto& [setting, what, value] : {std::tuple{"width_m", "a sensor's width in metres", sensor.width_m},
+                                             {"height_m", "a sensor's height in metres", sensor.height_m},
+                                             {"columns", "a sensor's number of columns", sensor.columns},
+                                             {"rows", "a sensor's number of rows", sensor.rows}})
+    if (const Result<double> checked = positive(setting, what, value); !checked) return checked.error();
   return exposure_lx_s * (sensor.width_m / sensor.columns) * (sensor.height_m / sensor.rows);
 }
 

@@ -1,21 +1,35 @@
 #include "camera_text.h"
 
+#include "parameter_error.h"
+
 namespace etendue {
 namespace {
 
-Status set(std::optional<double>& setting, const char* what, double value, const Cursor& at) {
-  if (setting) return at.error("CAMERA_SETTING_AMBIGUOUS", fmt::format("expected {} once, found a second one", what));
+// A setting: its member of CameraSettings, that member's name, and what it is in words.
+struct Setting {
+  std::optional<double> CameraSettings::*member;
+  const char *name, *what;
+};
+constexpr Setting f_number{&CameraSettings::f_number, "f_number", "an f-number"}, t_stop{&CameraSettings::t_stop, "t_stop", "a T-stop"},
+    shutter{&CameraSettings::shutter_s, "shutter_s", "a shutter time in seconds"},
+    shutter_angle{&CameraSettings::shutter_angle_rad, "shutter_angle_rad", "a shutter angle"},
+    frame_rate{&CameraSettings::frames_per_s, "frames_per_s", "a frame rate"}, iso{&CameraSettings::iso, "iso", "a sensitivity (ISO)"};
+
+Status set(CameraSettings& camera, const Setting& setting, double value, const Cursor& at) {
+  if (camera.*setting.member)
+    return about(setting.name, at.error("CAMERA_SETTING_AMBIGUOUS", fmt::format("expected {} once, found a second one", setting.what)));
   if (!(value > 0 && std::isfinite(value)))
-    return at.error("CAMERA_SETTING_INVALID", fmt::format("expected {} above 0 and finite, found {}", what, value));
-  setting = value;
+    return about(setting.name,
+                 at.error("CAMERA_SETTING_INVALID", fmt::format("expected {} above 0 and finite, found {}", setting.what, value)));
+  camera.*setting.member = value;
   return Done{};
 }
-Status take_setting(std::optional<double>& setting, const char* what, Cursor& cursor) {
+Status take_setting(CameraSettings& camera, const Setting& setting, Cursor& cursor) {
   const Cursor at = cursor;
   const Result<double> value = cursor.number();
   if (!value) return value.error();
   cursor.skip_blanks();
-  return set(setting, what, *value, at);
+  return set(camera, setting, *value, at);
 }
 
 // "1/60 s", "1/60", "8 ms", "180 deg @ 24 fps", "24 fps", "+1.5 stop".
@@ -28,13 +42,13 @@ Status take_counted(CameraSettings& camera, bool& compensated, Cursor& cursor) {
     if (!below) return below.error();
     cursor.skip_blanks();
     if (cursor.word() == "s") cursor.take("s");
-    return set(camera.shutter_s, "a shutter time in seconds", *number / *below, at);
+    return set(camera, shutter, *number / *below, at);
   }
   cursor.skip_blanks();
   const std::string_view word = cursor.word();
   if (word == "fps") {
     cursor.take("fps");
-    return set(camera.frames_per_s, "a frame rate", *number, at);
+    return set(camera, frame_rate, *number, at);
   }
   const NamedUnit* const unit = find_unit(word);
   if (unit == nullptr)
@@ -44,12 +58,14 @@ Status take_counted(CameraSettings& camera, bool& compensated, Cursor& cursor) {
   const double si = unit->to_si(*number);
   switch (unit->dimension) {
     case Dimension::duration:
-      return set(camera.shutter_s, "a shutter time in seconds", si, at);
+      return set(camera, shutter, si, at);
     case Dimension::angle:
       cursor.take("@");
-      return set(camera.shutter_angle_rad, "a shutter angle", si, at);
+      return set(camera, shutter_angle, si, at);
     case Dimension::stop:
-      if (compensated) return at.error("CAMERA_SETTING_AMBIGUOUS", "expected an exposure compensation once, found a second one");
+      if (compensated)
+        return about("compensation_stop",
+                     at.error("CAMERA_SETTING_AMBIGUOUS", "expected an exposure compensation once, found a second one"));
       compensated = true;
       camera.compensation_stop = si;
       return Done{};
@@ -59,16 +75,17 @@ Status take_counted(CameraSettings& camera, bool& compensated, Cursor& cursor) {
 }
 
 Status take_camera_setting(CameraSettings& camera, bool& compensated, Cursor& cursor) {
-  if (cursor.take_name("f/")) return take_setting(camera.f_number, "an f-number", cursor);
-  if (cursor.take_name("T")) return take_setting(camera.t_stop, "a T-stop", cursor);
-  if (cursor.take_name("ISO")) return take_setting(camera.iso, "a sensitivity (ISO)", cursor);
+  if (cursor.take_name("f/")) return take_setting(camera, f_number, cursor);
+  if (cursor.take_name("T")) return take_setting(camera, t_stop, cursor);
+  if (cursor.take_name("ISO")) return take_setting(camera, iso, cursor);
   if (cursor.take_name("ND")) {
     const Cursor at = cursor;
     const Result<double> density = cursor.number();
     if (!density) return density.error();
     cursor.skip_blanks();
     if (!(*density >= 0))
-      return at.error("CAMERA_SETTING_INVALID", fmt::format("expected a filter's density from 0 upwards, found {}", *density));
+      return about("nd_density",
+                   at.error("CAMERA_SETTING_INVALID", fmt::format("expected a filter's density from 0 upwards, found {}", *density)));
     camera.nd_density += *density;
     return Done{};
   }
@@ -90,10 +107,12 @@ Result<CameraSettings> take_camera(Cursor cursor) {
   while (!cursor.at_end())
     if (const Status taken = take_camera_setting(camera, compensated, cursor); !taken) return taken.error();
   if (camera.f_number && camera.t_stop)
-    return cursor.error("CAMERA_SETTING_AMBIGUOUS", "expected either an f-number or a T-stop, found both");
+    return about("t_stop", cursor.error("CAMERA_SETTING_AMBIGUOUS", "expected either an f-number or a T-stop, found both"));
   if (camera.shutter_s && camera.shutter_angle_rad)
-    return cursor.error("CAMERA_SETTING_AMBIGUOUS", "expected either a shutter time or a shutter angle, found both");
-  if (!std::isfinite(camera.nd_density)) return cursor.error("CAMERA_SETTING_INVALID", "the densities add up beyond the range of a double");
+    return about("shutter_angle_rad",
+                 cursor.error("CAMERA_SETTING_AMBIGUOUS", "expected either a shutter time or a shutter angle, found both"));
+  if (!std::isfinite(camera.nd_density))
+    return about("nd_density", cursor.error("CAMERA_SETTING_INVALID", "the densities add up beyond the range of a double"));
   return camera;
 }
 

@@ -1,6 +1,8 @@
 #include "etendue/colour.h"
 
 #include "etendue/colour_space.h"
+#include "etendue/temperature.h"
+#include "parameter_error.h"
 #include "planck_locus.h"
 
 #include <fmt/format.h>
@@ -15,19 +17,16 @@ namespace {
 constexpr Matrix3 from_rec709 = rgb_to_xyz(rec709), to_rec709 = xyz_to_rgb(rec709);
 
 Error out_of_range(const char* what, double temperature_K, double low, double high) {
-  return {"TEMPERATURE_OUT_OF_RANGE",
-          fmt::format("expected a temperature of {} between {} K and {} K, found {} K", what, low, high, temperature_K),
-          {},
-          {},
-          {}};
+  return parameter_error("kelvin", "TEMPERATURE_OUT_OF_RANGE",
+                         fmt::format("expected a temperature of {} between {} K and {} K, found {} K", what, low, high, temperature_K));
 }
 
 }  // namespace
 
 Result<Chromaticity> planckian(double temperature_K) {
-  constexpr double low = 100, high = 100000;
   const bool infinite = std::isinf(temperature_K) && temperature_K > 0;
-  if (!infinite && !(temperature_K >= low && temperature_K <= high)) return out_of_range("a Planckian radiator", temperature_K, low, high);
+  if (!infinite)
+    if (const Result<double> checked = checked_temperature(temperature_K); !checked) return checked.error();
   // Planck's law without its constant factor, which chromaticity does not see: 1 / (lambda^5 (exp(c2 / (lambda T)) - 1)). Wavelengths are
   // in micrometres, and exp stays below e^400 at 100 K. With T exp(x) - 1 tends to x = c2 / (lambda T), and the spectrum to a multiple of
   // lambda^-4.

@@ -1,6 +1,7 @@
 #include "etendue/colour_space.h"
 
 #include "edit_distance.h"
+#include "parameter_error.h"
 
 #include <fmt/format.h>
 
@@ -34,17 +35,14 @@ const Cones& cones_of(ChromaticAdaptation adaptation) { return all_cones[static_
 
 // The one whose name it is, or an error that says what is nearest.
 template <class All>
-Result<typename All::value_type> named(const All& all, std::string_view name, const char* code, const char* what) {
+Result<typename All::value_type> named(const All& all, std::string_view name, const char* parameter, const char* code, const char* what) {
   std::vector<Candidate> candidates;
   for (const auto& known : all) {
     if (known.name == name) return known;
     candidates.push_back({std::string(known.name), std::string(known.name)});
   }
-  return Error{code,
-               fmt::format("\"{}\" is no {}", name, what),
-               {},
-               fmt::format("nearest: {}", fmt::join(nearest_candidates(name, candidates, 3), ", ")),
-               {}};
+  return parameter_error(parameter, code, fmt::format("\"{}\" is no {}", name, what),
+                         fmt::format("nearest: {}", fmt::join(nearest_candidates(name, candidates, 3), ", ")));
 }
 
 bool has_luminance(const Chromaticity& xy) { return std::isfinite(xy.x) && std::isfinite(xy.y) && xy.y > 0; }
@@ -52,11 +50,11 @@ bool has_luminance(const Chromaticity& xy) { return std::isfinite(xy.x) && std::
 }  // namespace
 
 std::span<const ColourSpace> colour_spaces() { return all_spaces; }
-Result<ColourSpace> colour_space(std::string_view name) { return named(all_spaces, name, "COLOUR_SPACE_UNKNOWN", "colour space"); }
+Result<ColourSpace> colour_space(std::string_view name) { return named(all_spaces, name, "space", "COLOUR_SPACE_UNKNOWN", "colour space"); }
 
 std::string_view name_of(ChromaticAdaptation adaptation) { return cones_of(adaptation).name; }
 Result<ChromaticAdaptation> adaptation_of(std::string_view name) {
-  const Result<Cones> found = named(all_cones, name, "ADAPTATION_UNKNOWN", "chromatic adaptation");
+  const Result<Cones> found = named(all_cones, name, "adaptation", "ADAPTATION_UNKNOWN", "chromatic adaptation");
   if (!found) return found.error();
   return found->adaptation;
 }
@@ -68,11 +66,8 @@ Result<Matrix3> adaptation_matrix(const Chromaticity& from, const Chromaticity& 
   for (const Chromaticity& white : {from, to}) {
     const Vec3d response = has_luminance(white) ? cones * to_xyz(white) : Vec3d{};
     if (!(std::min({response.x, response.y, response.z}) > 0))
-      return Error{"WHITE_POINT_INVALID",
-                   fmt::format("expected a white point that every cone responds to, found ({}, {})", white.x, white.y),
-                   {},
-                   {},
-                   {}};
+      return parameter_error("white", "WHITE_POINT_INVALID",
+                             fmt::format("expected a white point that every cone responds to, found ({}, {})", white.x, white.y));
   }
   const Vec3d source = cones * to_xyz(from), target = cones * to_xyz(to);
   const Matrix3 scale{{target.x / source.x, 0, 0}, {0, target.y / source.y, 0}, {0, 0, target.z / source.z}};
@@ -99,7 +94,7 @@ InSpace in_space(const Rgb& rgb) {
 
 Result<InSpace> to_space(const Chromaticity& xy, const ColourSpace& space, const WhitePolicy& white) {
   if (!has_luminance(xy))
-    return Error{"CHROMATICITY_INVALID", fmt::format("expected a chromaticity with y > 0, found ({}, {})", xy.x, xy.y), {}, {}, {}};
+    return parameter_error("xy", "CHROMATICITY_INVALID", fmt::format("expected a chromaticity with y > 0, found ({}, {})", xy.x, xy.y));
   const Result<Matrix3> adapted = adaptation_matrix(white.observer_white, space.white, white.adaptation);
   if (!adapted) return adapted.error();
   return in_space(xyz_to_rgb(space) * (*adapted * to_xyz(xy)));

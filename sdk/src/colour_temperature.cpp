@@ -1,5 +1,6 @@
 // Correlated colour temperature and Duv, exactly.
 #include "etendue/colour.h"
+#include "parameter_error.h"
 #include "planck_locus.h"
 
 #include <fmt/format.h>
@@ -23,11 +24,9 @@ Vec2d normal_of(const LocusPoint& p) {
 }
 
 Error out_of_range(const char* what, double temperature_K) {
-  return {"TEMPERATURE_OUT_OF_RANGE",
-          fmt::format("expected a temperature of {} between {} K and {} K, found {} K", what, least_K, largest_K, temperature_K),
-          {},
-          {},
-          {}};
+  return parameter_error(
+      "kelvin", "TEMPERATURE_OUT_OF_RANGE",
+      fmt::format("expected a temperature of {} between {} K and {} K, found {} K", what, least_K, largest_K, temperature_K));
 }
 
 // Samples of the locus from which the search starts, built on first use.
@@ -67,11 +66,9 @@ Result<Chromaticity> to_chromaticity(const ColourTemperature& temperature) {
   if (!(temperature.kelvin >= least_K && temperature.kelvin <= largest_K))
     return out_of_range("a correlated colour temperature", temperature.kelvin);
   if (!(std::abs(temperature.duv) <= largest_duv))
-    return Error{"DUV_OUT_OF_RANGE",
-                 fmt::format("expected a Duv between -{0} and {0}, found {1}", largest_duv, temperature.duv),
-                 {},
-                 "further from the Planckian locus a correlated colour temperature has no meaning",
-                 {}};
+    return parameter_error("duv", "DUV_OUT_OF_RANGE",
+                           fmt::format("expected a Duv between -{0} and {0}, found {1}", largest_duv, temperature.duv),
+                           "further from the Planckian locus a correlated colour temperature has no meaning");
   const LocusPoint p = planck_locus(1 / temperature.kelvin);
   const Vec2d n = normal_of(p);
   return from_uv1960({p.uv.x + temperature.duv * n.x, p.uv.y + temperature.duv * n.y});
@@ -82,12 +79,11 @@ Result<Chromaticity> to_chromaticity(const ColourTemperature& temperature) {
 // where they would not come nearer.
 Result<ColourTemperature> to_colour_temperature(const Chromaticity& xy) {
   const auto not_near = [&](double duv) {
-    return Error{"NOT_NEAR_LOCUS",
-                 fmt::format("expected a chromaticity within |Duv| <= {} of the Planckian locus, found ({}, {}) with a distance of {:.4f}",
-                             largest_duv, xy.x, xy.y, duv),
-                 {},
-                 "it has no correlated colour temperature",
-                 {}};
+    return parameter_error(
+        "xy", "NOT_NEAR_LOCUS",
+        fmt::format("expected a chromaticity within |Duv| <= {} of the Planckian locus, found ({}, {}) with a distance of {:.4f}",
+                    largest_duv, xy.x, xy.y, duv),
+        "it has no correlated colour temperature");
   };
   const Uv given = to_uv1960(xy);
   const Vec2d q{given.u, given.v};
@@ -123,26 +119,22 @@ Result<ColourTemperature> to_colour_temperature(const Chromaticity& xy) {
   // Half a part in 10^9 beyond the ends is rounding.
   constexpr double slack = 5e-10;
   if (m < least_reciprocal * (1 - slack) || m > largest_reciprocal * (1 + slack))
-    return m > 0 ? out_of_range("a correlated colour temperature", 1 / m)
-                 : out_of_range("a correlated colour temperature", std::numeric_limits<double>::infinity());
+    return about("xy", out_of_range("a correlated colour temperature", m > 0 ? 1 / m : std::numeric_limits<double>::infinity()));
   return ColourTemperature{std::clamp(1 / m, least_K, largest_K), duv};
 }
 
 Result<double> mired_of(double temperature_K) {
   if (temperature_K > 0 && std::isfinite(1e6 / temperature_K)) return 1e6 / temperature_K;
-  return Error{"TEMPERATURE_OUT_OF_RANGE", fmt::format("expected a temperature above 0 K, found {} K", temperature_K), {}, {}, {}};
+  return parameter_error("kelvin", "TEMPERATURE_OUT_OF_RANGE", fmt::format("expected a temperature above 0 K, found {} K", temperature_K));
 }
 Result<double> shifted_by_mired(double temperature_K, double shift_mired) {
   const Result<double> mired = mired_of(temperature_K);
   if (!mired) return mired.error();
   const double shifted = *mired + shift_mired;
   if (shifted > 0 && std::isfinite(1e6 / shifted)) return 1e6 / shifted;
-  return Error{"TEMPERATURE_OUT_OF_RANGE",
-               fmt::format("expected a shift that leaves a positive temperature, found {} K ({} mired) shifted by {} mired", temperature_K,
-                           *mired, shift_mired),
-               {},
-               {},
-               {}};
+  return parameter_error("shift_mired", "TEMPERATURE_OUT_OF_RANGE",
+                         fmt::format("expected a shift that leaves a positive temperature, found {} K ({} mired) shifted by {} mired",
+                                     temperature_K, *mired, shift_mired));
 }
 
 }  // namespace etendue

@@ -2,6 +2,7 @@
 
 #include "dialect_rules.h"
 #include "edit_distance.h"
+#include "parameter_error.h"
 
 #include <fmt/format.h>
 
@@ -35,21 +36,18 @@ constexpr std::array<DialectInfo, 13> all_dialects{
      {Dialect::vray, "vray", "V-Ray", "Chaos documentation, light units: lm, lm/m2/sr, W, W/m2/sr at 683 lm/W, hue of the colour alone",
       "the arithmetic: only its description is public"}}};
 
-Error number_invalid(const char* what, double value) {
-  return {"NUMBER_INVALID", fmt::format("expected {}, found {}", what, value), {}, {}, {}};
+Error number_invalid(const char* parameter, const char* what, double value) {
+  return parameter_error(parameter, "NUMBER_INVALID", fmt::format("expected {}, found {}", what, value));
 }
 
 // Watts become light by an efficacy that somebody states.
 Result<double> efficacy_of(const DialectForm& form, const std::optional<double>& of_the_light = {}) {
   const std::optional<double> efficacy = form.efficacy_lm_W ? form.efficacy_lm_W : of_the_light;
   if (!efficacy)
-    return Error{"EFFICACY_MISSING",
-                 "Blender's watts need an efficacy in lm/W to be light",
-                 {},
-                 "its glTF exporter takes 683, the most that there is; white light has 200 to 400 for each watt of light",
-                 {}};
+    return parameter_error("efficacy", "EFFICACY_MISSING", "Blender's watts need an efficacy in lm/W to be light",
+                           "its glTF exporter takes 683, the most that there is; white light has 200 to 400 for each watt of light");
   if (*efficacy > 0 && std::isfinite(*efficacy)) return *efficacy;
-  return number_invalid("an efficacy above 0 lm/W and finite", *efficacy);
+  return number_invalid("efficacy", "an efficacy above 0 lm/W and finite", *efficacy);
 }
 
 bool has_image(const Shape& shape) {
@@ -57,11 +55,9 @@ bool has_image(const Shape& shape) {
   return environment != nullptr && environment->image.has_value();
 }
 Error mean_unknown() {
-  return {"UNIT_UNSUITABLE",
-          "an environment's image is multiplied here; scaling it to a mean, an illuminance or an exposure value needs its pixels",
-          {},
-          {},
-          {}};
+  return parameter_error(
+      "unit", "UNIT_UNSUITABLE",
+      "an environment's image is multiplied here; scaling it to a mean, an illuminance or an exposure value needs its pixels");
 }
 
 // Tubes have the caps that the program gives them.
@@ -79,11 +75,8 @@ Result<DialectInfo> dialect_named(std::string_view name) {
     if (info.name == name) return info;
     candidates.push_back({std::string(info.name), std::string(info.name)});
   }
-  return Error{"DIALECT_UNKNOWN",
-               fmt::format("\"{}\" is no program whose lights are known", name),
-               {},
-               fmt::format("nearest: {}", fmt::join(nearest_candidates(name, candidates, 3), ", ")),
-               {}};
+  return parameter_error("dialect", "DIALECT_UNKNOWN", fmt::format("\"{}\" is no program whose lights are known", name),
+                         fmt::format("nearest: {}", fmt::join(nearest_candidates(name, candidates, 3), ", ")));
 }
 
 Result<FromDialect> from_dialect(Dialect dialect, const StatedLight& stated) {
@@ -92,8 +85,8 @@ Result<FromDialect> from_dialect(Dialect dialect, const StatedLight& stated) {
   if (!unit) return unit.error();
   in_metres.form.unit = *unit;
   if (!std::isfinite(stated.amount) || (*unit != "EV" && stated.amount < 0))
-    return number_invalid("a finite amount that is not negative", stated.amount);
-  if (!std::isfinite(stated.form.exposure_stop)) return number_invalid("a finite exposure", stated.form.exposure_stop);
+    return number_invalid("amount", "a finite amount that is not negative", stated.amount);
+  if (!std::isfinite(stated.form.exposure_stop)) return number_invalid("exposure_stop", "a finite exposure", stated.form.exposure_stop);
   const Result<double> metres = metres_per_unit(dialect, stated.shape, stated.form);
   if (!metres) return metres.error();
   in_metres.shape = scaled_shape(stated.shape, *metres);
@@ -171,9 +164,9 @@ Result<ToDialect> to_dialect(Dialect dialect, const Light& light, const DialectF
   const double brightest = std::max({rgb.x, rgb.y, rgb.z});
   if (brightest > 0) stated.colour = rgb / brightest;
   const double amount = dialect == Dialect::vray ? luminance_of(rgb) : brightest;
-  if (*unit == "EV" && !(amount > 0)) return number_invalid("light: no exposure value says that there is none", amount);
+  if (*unit == "EV" && !(amount > 0)) return number_invalid("amount", "light: no exposure value says that there is none", amount);
   stated.amount = stated_amount(amount / *factor, stated.form);
-  if (!std::isfinite(stated.amount)) return number_invalid("an amount that is finite", stated.amount);
+  if (!std::isfinite(stated.amount)) return number_invalid("amount", "an amount that is finite", stated.amount);
   stated.shape = scaled_shape(stated.shape, 1 / *metres);
   if (light.range_m) stated.range = *light.range_m / *metres;
   add_differences(dialect, light, written.losses);

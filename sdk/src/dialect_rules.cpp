@@ -1,4 +1,5 @@
 #include "dialect_rules.h"
+#include "parameter_error.h"
 
 #include <fmt/format.h>
 
@@ -54,7 +55,7 @@ Result<double> per_lumen(Dialect dialect, const StatedLight& stated) {
   if (is_punctual(stated.shape)) {
     const double solid_angle = flux_solid_angle(dialect, stated);
     if (solid_angle > 0) return 1 / solid_angle;
-    return Error{"SIZE_MISSING", "lumens need an opening angle greater than zero", {}, {}, {}};
+    return parameter_error("outer", "SIZE_MISSING", "lumens need an opening angle greater than zero");
   }
   if (std::holds_alternative<LineShape>(stated.shape)) return 1 / (4 * pi);  // HDRP's tube: the same cd in all directions
   const Result<double> area = area_of_stated(stated.shape);
@@ -77,7 +78,7 @@ Result<double> per_usd_amount(const StatedLight& stated) {
     const double projected = projected_solid_angle(*distant);
     if (form.normalize) return 1.0;
     if (projected > 0) return projected;  // E of a disc of 1 cd/m2
-    return Error{"SIZE_MISSING", "a DistantLight without normalize needs an angle greater than zero", {}, {}, {}};
+    return parameter_error("angular_diameter", "SIZE_MISSING", "a DistantLight without normalize needs an angle greater than zero");
   }
   if (std::holds_alternative<EnvironmentShape>(stated.shape)) return 1.0;
   const Result<double> metres = metres_per_unit(D::usd, stated.shape, form);
@@ -86,7 +87,8 @@ Result<double> per_usd_amount(const StatedLight& stated) {
   // A sphere of radius r with normalize has L = amount / (4 pi r^2), r in stage units, and I = pi r^2 L whatever r.
   if (std::holds_alternative<PointShape>(stated.shape)) {
     if (form.normalize) return stage_area_m2 / 4;
-    return Error{"SIZE_MISSING", "a SphereLight with treatAsPoint and without normalize needs its radius: make it a sphere", {}, {}, {}};
+    return parameter_error("shape", "SIZE_MISSING",
+                           "a SphereLight with treatAsPoint and without normalize needs its radius: make it a sphere");
   }
   const Result<double> area = area_of_stated(stated.shape);
   if (!area) return area.error();
@@ -190,14 +192,13 @@ std::vector<std::string_view> units_of(Dialect dialect, const Shape& shape) {
 Result<std::string> unit_of(Dialect dialect, const Shape& shape, std::string_view asked_for) {
   const DialectInfo& info = dialects()[static_cast<std::size_t>(dialect)];
   const std::vector<std::string_view> units = units_of(dialect, shape);
-  if (units.empty()) return Error{"DIALECT_HAS_NO_SUCH_LIGHT", fmt::format("{} has no {} light", info.program, name_of(shape)), {}, {}, {}};
+  if (units.empty())
+    return parameter_error("shape", "DIALECT_HAS_NO_SUCH_LIGHT", fmt::format("{} has no {} light", info.program, name_of(shape)));
   if (asked_for.empty()) return std::string(units.front());
   if (std::find(units.begin(), units.end(), asked_for) != units.end()) return std::string(asked_for);
-  return Error{"UNIT_UNSUITABLE",
-               fmt::format("{} states a {} light in {}, not in \"{}\"", info.program, name_of(shape), fmt::join(units, ", "), asked_for),
-               {},
-               {},
-               {}};
+  return parameter_error(
+      "unit", "UNIT_UNSUITABLE",
+      fmt::format("{} states a {} light in {}, not in \"{}\"", info.program, name_of(shape), fmt::join(units, ", "), asked_for));
 }
 
 Result<double> natural_per_amount(Dialect dialect, const StatedLight& stated) {
@@ -244,13 +245,13 @@ Result<double> metres_per_unit(Dialect dialect, const Shape& shape, const Dialec
   if (dialect == D::unreal) return 0.01;
   if (dialect != D::usd || is_any<DistantShape, EnvironmentShape>(shape)) return 1.0;
   if (!form.metres_per_unit)
-    return Error{"METRES_PER_UNIT_MISSING",
-                 "a USD light needs its stage's metersPerUnit: sizes are in stage units, and normalize divides by an area in them",
-                 {},
-                 "USD's default is .01, centimetres; a wrong one is a factor of 10000",
-                 {}};
+    return parameter_error(
+        "metres_per_unit", "METRES_PER_UNIT_MISSING",
+        "a USD light needs its stage's metersPerUnit: sizes are in stage units, and normalize divides by an area in them",
+        "USD's default is .01, centimetres; a wrong one is a factor of 10000");
   if (*form.metres_per_unit > 0 && std::isfinite(*form.metres_per_unit)) return *form.metres_per_unit;
-  return Error{"NUMBER_INVALID", fmt::format("expected metersPerUnit above 0 and finite, found {}", *form.metres_per_unit), {}, {}, {}};
+  return parameter_error("metres_per_unit", "NUMBER_INVALID",
+                         fmt::format("expected metersPerUnit above 0 and finite, found {}", *form.metres_per_unit));
 }
 
 Shape scaled_shape(const Shape& shape, double factor) {

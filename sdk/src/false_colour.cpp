@@ -1,5 +1,7 @@
 #include "etendue/false_colour.h"
 
+#include "parameter_error.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,19 +33,14 @@ Rgb false_colour(double position) {
 
 Result<FalseColourCounts> false_colour(std::span<const float> values, const FalseColourScale& scale, std::span<Vec3f> colours) {
   if (values.size() != colours.size())
-    return Error{"BATCH_SIZES_DIFFER",
-                 fmt::format("expected as many colours as values, found {} and {}", colours.size(), values.size()),
-                 {},
-                 {},
-                 {}};
+    return parameter_error("colours", "BATCH_SIZES_DIFFER",
+                           fmt::format("expected as many colours as values, found {} and {}", colours.size(), values.size()));
   if (!(scale.least < scale.greatest) || !std::isfinite(scale.least) || !std::isfinite(scale.greatest) ||
       (scale.logarithmic && !(scale.least > 0)) || scale.bands < 0 || scale.bands > 4096)
-    return Error{"SCALE_INVALID",
-                 fmt::format("expected least < greatest, finite, above 0 on a logarithmic scale, and 0 to 4096 bands, found {}, {} and {}",
-                             scale.least, scale.greatest, scale.bands),
-                 {},
-                 {},
-                 {}};
+    return parameter_error(
+        "scale", "SCALE_INVALID",
+        fmt::format("expected least < greatest, finite, above 0 on a logarithmic scale, and 0 to 4096 bands, found {}, {} and {}",
+                    scale.least, scale.greatest, scale.bands));
   const auto measure = [&](double x) { return scale.logarithmic ? std::log2(x) : x; };
   const double first = measure(scale.least), width = measure(scale.greatest) - first;
   FalseColourCounts counts;

@@ -1,5 +1,7 @@
 #include "etendue/hdri.h"
 
+#include "parameter_error.h"
+
 #include "etendue/colour.h"
 
 #include <fmt/format.h>
@@ -53,7 +55,7 @@ double projected_solid_angle(const Patch& patch, const Vec3d& normal) {
 bool finite(const Vec3f& c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); }
 
 std::optional<Error> wrong_with(std::span<const Vec3f> texels, const PanoramaSize& size) {
-  const auto invalid = [](std::string text) { return Error{"PANORAMA_INVALID", std::move(text), {}, {}, {}}; };
+  const auto invalid = [](std::string text) { return parameter_error("texels", "PANORAMA_INVALID", std::move(text)); };
   if (size.width == 0 || size.height == 0 || texels.size() / size.width != size.height || texels.size() % size.width != 0)
     return invalid(fmt::format("expected width x height texels, found {} for {} x {}", texels.size(), size.width, size.height));
   for (std::size_t i = 0; i < texels.size(); ++i)
@@ -65,7 +67,8 @@ std::optional<Error> wrong_with(std::span<const Vec3f> texels, const PanoramaSiz
 Result<Vec3d> unit(const Vec3d& direction) {
   const double l = length(direction);
   if (l > 0 && std::isfinite(l)) return direction / l;
-  return Error{"DIRECTION_INVALID", fmt::format("expected a direction, found {} {} {}", direction.x, direction.y, direction.z), {}, {}, {}};
+  return parameter_error("direction", "DIRECTION_INVALID",
+                         fmt::format("expected a direction, found {} {} {}", direction.x, direction.y, direction.z));
 }
 
 // visit(index, patch) for each texel whose middle is within `outer`, but not within `inner`, of a direction.
@@ -92,17 +95,14 @@ std::optional<Rgb> mean_within(std::span<const Vec3f> texels, const PanoramaSize
   return sum / weight;
 }
 
-Result<double> factor(double measured, const Result<Rgb>& found, const char* what) {
+Result<double> factor(double measured, const Result<Rgb>& found, const char* parameter, const char* what) {
   if (!found) return found.error();
   const double relative = luminance_of(*found), result = measured / relative;
   if (measured > 0 && relative > 0 && std::isfinite(measured) && std::isfinite(result)) return result;
-  return Error{
-      "CALIBRATION_IMPOSSIBLE",
+  return parameter_error(
+      measured > 0 && std::isfinite(measured) ? "texels" : parameter, "CALIBRATION_IMPOSSIBLE",
       fmt::format("expected a measured {} above 0 and a panorama that is not black there, found {} measured and {} in the panorama", what,
-                  measured, relative),
-      {},
-      {},
-      {}};
+                  measured, relative));
 }
 
 constexpr double sun_diameter_rad = 2 * 0.2666 * pi / 180;  // mean over the year
@@ -140,11 +140,11 @@ Result<Rgb> luminance_of_panorama(std::span<const Vec3f> texels, const PanoramaS
 }
 
 Result<double> factor_for_illuminance(std::span<const Vec3f> texels, const PanoramaSize& size, const Vec3d& normal, double lux) {
-  return factor(lux, illuminance_of_panorama(texels, size, normal), "illuminance");
+  return factor(lux, illuminance_of_panorama(texels, size, normal), "lux", "illuminance");
 }
 Result<double> factor_for_luminance(std::span<const Vec3f> texels, const PanoramaSize& size, const Vec3d& direction, double radius_rad,
                                     double cd_m2) {
-  return factor(cd_m2, luminance_of_panorama(texels, size, direction, radius_rad), "luminance");
+  return factor(cd_m2, luminance_of_panorama(texels, size, direction, radius_rad), "cd_m2", "luminance");
 }
 
 Result<SunCut> cut_sun(std::span<Vec3f> texels, const PanoramaSize& size, double radius_rad) {
@@ -162,12 +162,10 @@ Result<SunCut> cut_sun(std::span<Vec3f> texels, const PanoramaSize& size, double
     const auto ring =
         radius_rad > 0 && radius_rad < pi / 3 ? mean_within(texels, size, direction, radius_rad, 1.5 * radius_rad) : std::optional<Rgb>();
     if (!ring)
-      return Error{"SUN_RADIUS_INVALID",
-                   fmt::format("expected a radius below 60 degrees with texels around it, found {} degrees with texels of {} degrees",
-                               degrees.of({radius_rad}), 180 / static_cast<double>(size.height)),
-                   {},
-                   {},
-                   {}};
+      return parameter_error(
+          "radius_rad", "SUN_RADIUS_INVALID",
+          fmt::format("expected a radius below 60 degrees with texels around it, found {} degrees with texels of {} degrees",
+                      degrees.of({radius_rad}), 180 / static_cast<double>(size.height)));
     sky = *ring;
     vector = {};
     each_within(size, direction, 0, radius_rad, [&](std::size_t i, const Patch& patch) {
@@ -176,7 +174,7 @@ Result<SunCut> cut_sun(std::span<Vec3f> texels, const PanoramaSize& size, double
     });
     const Vec3d of_luminance = vector[0] * 0.2126 + vector[1] * 0.7152 + vector[2] * 0.0722;
     if (!(dot(of_luminance, direction) > 0))
-      return Error{"SUN_NOT_FOUND", "expected something brighter than the sky around it, found nothing", {}, {}, {}};
+      return parameter_error("texels", "SUN_NOT_FOUND", "expected something brighter than the sky around it, found nothing");
     if (refinement < 3) direction = normalised(of_luminance);
   }
 

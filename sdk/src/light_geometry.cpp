@@ -1,5 +1,7 @@
 #include "light_ratio.h"
 
+#include "parameter_error.h"
+
 #include <fmt/format.h>
 
 namespace etendue {
@@ -72,54 +74,61 @@ Wide solid_angle_of_frustum(const FrustumShape& frustum) {
 
 namespace {
 
-Error error(const char* code, std::string text, std::string hint = {}) { return {code, std::move(text), {}, std::move(hint), {}}; }
-Status size(const char* name, double value) {
+// A size as a parameter, and as words: "a radius in metres".
+struct Named {
+  const char *parameter, *words;
+};
+constexpr Named named_radius{"radius", "a radius in metres"}, named_length{"length", "a length in metres"};
+
+Status size(const Named& name, double value) {
   if (value > 0 && std::isfinite(value)) return Done{};
-  if (value == 0) return error("SIZE_MISSING", fmt::format("expected {} greater than zero", name));
-  return error("NUMBER_INVALID", fmt::format("expected {} above 0 and finite, found {}", name, value));
+  if (value == 0) return parameter_error(name.parameter, "SIZE_MISSING", fmt::format("expected {} greater than zero", name.words));
+  return parameter_error(name.parameter, "NUMBER_INVALID", fmt::format("expected {} above 0 and finite, found {}", name.words, value));
 }
-Status sizes(const char* first, double first_m, const char* second, double second_m) {
+Status sizes(const Named& first, double first_m, const Named& second, double second_m) {
   const Status checked = size(first, first_m);
   return checked ? size(second, second_m) : checked;
 }
-Status angle(const char* name, double rad, double most_rad) {
+Status angle(const Named& name, double rad, double most_rad) {
   if (rad >= 0 && rad <= most_rad) return Done{};
-  return error("NUMBER_INVALID",
-               fmt::format("expected {} from 0 to {:g} degrees, found {:g} degrees", name, degrees.of({most_rad}), degrees.of({rad})),
-               rad > most_rad ? "angles are radians in code and carry their unit as text, such as 30 deg" : "");
+  return parameter_error(
+      name.parameter, "NUMBER_INVALID",
+      fmt::format("expected {} from 0 to {:g} degrees, found {:g} degrees", name.words, degrees.of({most_rad}), degrees.of({rad})),
+      rad > most_rad ? "angles are radians in code and carry their unit as text, such as 30 deg" : "");
 }
 
 }  // namespace
 
 Status check_size(const PointShape&) { return Done{}; }
 Status check_size(const SpotShape& s) {
-  if (const Status outer = angle("an outer half angle", s.outer_rad, pi); !outer) return outer;
-  if (const Status inner = angle("an inner half angle", s.inner_rad, pi); !inner) return inner;
+  if (const Status outer = angle({"outer", "an outer half angle"}, s.outer_rad, pi); !outer) return outer;
+  if (const Status inner = angle({"inner", "an inner half angle"}, s.inner_rad, pi); !inner) return inner;
   if (s.inner_rad <= s.outer_rad) return Done{};
-  return error("NUMBER_INVALID", fmt::format("expected an inner half angle up to the outer one, {:g} degrees, found {:g} degrees",
-                                             degrees.of({s.outer_rad}), degrees.of({s.inner_rad})));
+  return parameter_error("inner", "NUMBER_INVALID",
+                         fmt::format("expected an inner half angle up to the outer one, {:g} degrees, found {:g} degrees",
+                                     degrees.of({s.outer_rad}), degrees.of({s.inner_rad})));
 }
 Status check_size(const FrustumShape& s) {
-  const Status width = angle("a width angle", s.width_rad, pi);
-  return width ? angle("a height angle", s.height_rad, pi) : width;
+  const Status width = angle({"width_angle", "a width angle"}, s.width_rad, pi);
+  return width ? angle({"height_angle", "a height angle"}, s.height_rad, pi) : width;
 }
 Status check_size(const BeamOfSolidAngle& s) {
   if (s.flux_over_axial_sr > 0 && std::isfinite(s.flux_over_axial_sr)) return Done{};
-  return error("NUMBER_INVALID",
-               fmt::format("expected a flux over axial intensity above 0 sr and finite, found {} sr", s.flux_over_axial_sr));
+  return parameter_error("flux_over_axial", "NUMBER_INVALID",
+                         fmt::format("expected a flux over axial intensity above 0 sr and finite, found {} sr", s.flux_over_axial_sr));
 }
-Status check_size(const SphereShape& s) { return size("a radius in metres", s.radius); }
-Status check_size(const DiskShape& s) { return size("a radius in metres", s.radius); }
-Status check_size(const RectShape& s) { return sizes("a width in metres", s.width, "a height in metres", s.height); }
+Status check_size(const SphereShape& s) { return size(named_radius, s.radius); }
+Status check_size(const DiskShape& s) { return size(named_radius, s.radius); }
+Status check_size(const RectShape& s) { return sizes({"width", "a width in metres"}, s.width, {"height", "a height in metres"}, s.height); }
 Status check_size(const TubeShape& s) {
   // Without a length round caps are a sphere, and flat ones two disks back to back.
-  if (s.length == 0 && s.caps != Caps::none) return size("a radius in metres", s.radius);
-  return sizes("a length in metres", s.length, "a radius in metres", s.radius);
+  if (s.length == 0 && s.caps != Caps::none) return size(named_radius, s.radius);
+  return sizes(named_length, s.length, named_radius, s.radius);
 }
-Status check_size(const PolygonShape& s) { return size("a polygon's area in square metres", double(area_of(s))); }
-Status check_size(const SurfaceOfArea& s) { return size("an area in square metres", s.area_m2); }
-Status check_size(const LineShape& s) { return size("a length in metres", s.length); }
-Status check_size(const DistantShape& s) { return angle("an angular diameter", s.diameter_rad, pi); }
+Status check_size(const PolygonShape& s) { return size({"points", "a polygon's area in square metres"}, double(area_of(s))); }
+Status check_size(const SurfaceOfArea& s) { return size({"area_m2", "an area in square metres"}, s.area_m2); }
+Status check_size(const LineShape& s) { return size(named_length, s.length); }
+Status check_size(const DistantShape& s) { return angle({"angular_diameter", "an angular diameter"}, s.diameter_rad, pi); }
 Status check_size(const EnvironmentShape&) { return Done{}; }
 
 }  // namespace etendue

@@ -1,8 +1,11 @@
 #include "etendue/light_presets.h"
 
 #include "edit_distance.h"
+#include "number_text.h"
+#include "parameter_error.h"
 
 #include "etendue/spectrum.h"
+#include "etendue/units.h"
 
 #include <fmt/format.h>
 
@@ -54,6 +57,8 @@ constexpr EfficacyPreset efficacies[] = {
     {"CIE LED-B5", WattsOf::visible_radiation, 305.2, 305.2, cie},
     {"CIE LED-RGB1", WattsOf::visible_radiation, 291.4, 291.4, cie},
     {"CIE LED-V1", WattsOf::visible_radiation, 235.5, 235.5, cie},
+    {"K_cd", WattsOf::visible_radiation, k_cd_lm_W, k_cd_lm_W,
+     "SI 2019: light of 540 THz, the most there is; Blender's glTF exporter, V-Ray"},
     {"incandescent", WattsOf::electricity, 2 * percent, 5 * percent, table_6},
     {"fluorescent", WattsOf::electricity, 9 * percent, 15 * percent, table_6},
     {"LED of 2014", WattsOf::electricity, 0.66 * percent, 8.8 * percent, table_6},
@@ -70,10 +75,29 @@ Result<Preset> named(std::span<const Preset> all, std::string_view name, const c
     if (known.name == name) return known;
     candidates.push_back({std::string(known.name), std::string(known.name)});
   }
-  return Error{"PRESET_UNKNOWN",
-               fmt::format("\"{}\" is no source whose {} is known", name, what),
+  return parameter_error("name", "PRESET_UNKNOWN", fmt::format("\"{}\" is no source whose {} is known", name, what),
+                         fmt::format("nearest: {}", fmt::join(nearest_candidates(name, candidates, 3), ", ")));
+}
+
+// "15 lm/W", "2856 K", "2856 K visible".
+Result<EfficacyPolicy> counted_policy(std::string_view text) {
+  constexpr std::string_view band = "visible";
+  std::string_view number = text;
+  const bool visible = number.ends_with(band);
+  if (visible) number.remove_suffix(band.size());
+  const Result<AnyQuantity> given = parse_quantity(number);
+  if (!given) return given.error();
+  if (given->dimension == Dimension::temperature) {
+    const Result<double> lm_W = blackbody_efficacy(given->si, visible ? visible_band : whole_spectrum);
+    if (!lm_W) return lm_W.error();
+    return EfficacyPolicy{*lm_W, std::string(text),
+                          fmt::format("Planckian radiator of {} K, {}", given->si, visible ? "380 nm to 780 nm" : "all of its radiation")};
+  }
+  if (given->dimension == Dimension::efficacy && !visible) return EfficacyPolicy{given->si, std::string(text), ""};
+  return Error{"DIMENSION_MISMATCH",
+               fmt::format("expected a luminous efficacy (in lm/W) or the temperature of a Planckian radiator, found \"{}\"", text),
                {},
-               fmt::format("nearest: {}", fmt::join(nearest_candidates(name, candidates, 3), ", ")),
+               {},
                {}};
 }
 
@@ -83,5 +107,20 @@ std::span<const TemperaturePreset> temperature_presets() { return temperatures; 
 Result<TemperaturePreset> temperature_preset(std::string_view name) { return named(temperature_presets(), name, "temperature"); }
 std::span<const EfficacyPreset> efficacy_presets() { return efficacies; }
 Result<EfficacyPreset> efficacy_preset(std::string_view name) { return named(efficacy_presets(), name, "efficacy"); }
+
+Result<EfficacyPolicy> efficacy_policy(std::string_view text) {
+  text = trimmed(text);
+  if (!text.empty() && std::string_view("0123456789.+-").find(text.front()) != std::string_view::npos) {
+    const Result<EfficacyPolicy> counted = counted_policy(text);
+    return counted ? counted : about("efficacy", counted.error());
+  }
+  const Result<EfficacyPreset> preset = efficacy_preset(text);
+  if (!preset) return about("efficacy", preset.error());
+  if (preset->low_lm_W < preset->high_lm_W)
+    return parameter_error("efficacy", "EFFICACY_AMBIGUOUS",
+                           fmt::format("expected one efficacy, found {}: {:.3g} to {:.3g} lm/W", text, preset->low_lm_W, preset->high_lm_W),
+                           fmt::format("write one of them; {}", preset->source));
+  return EfficacyPolicy{preset->low_lm_W, std::string(text), std::string(preset->source)};
+}
 
 }  // namespace etendue

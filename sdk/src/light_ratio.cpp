@@ -1,14 +1,13 @@
 #include "light_ratio.h"
 
 #include "light_illuminance.h"
+#include "parameter_error.h"
 
 #include <fmt/format.h>
 
 namespace etendue {
 
 namespace {
-
-Error error(const char* code, std::string text, std::string hint = {}) { return {code, std::move(text), {}, std::move(hint), {}}; }
 
 template <class S>
 double nearest_of(const S& shape) {
@@ -21,13 +20,14 @@ constexpr bool flat = detail::one_of<S, DiskShape, RectShape, PolygonShape, Surf
 
 template <class S>
 Result<double> checked_distance(const S& shape, std::optional<double> distance_m) {
-  if (!distance_m) return error("DISTANCE_MISSING", "an illuminance needs the distance at which it is measured");
+  if (!distance_m) return parameter_error("distance", "DISTANCE_MISSING", "an illuminance needs the distance at which it is measured");
   const double nearest = nearest_of(shape);
   if (std::isfinite(*distance_m) && *distance_m > nearest) return *distance_m;
-  return error("NUMBER_INVALID", fmt::format("expected a distance greater than {} m, found {} m", nearest, *distance_m));
+  return parameter_error("distance", "NUMBER_INVALID",
+                         fmt::format("expected a distance greater than {} m, found {} m", nearest, *distance_m));
 }
 
-Error unsuitable(const char* text, const char* hint) { return error("UNIT_UNSUITABLE", text, hint); }
+Error unsuitable(const char* text, const char* hint) { return parameter_error("shape", "UNIT_UNSUITABLE", text, hint); }
 
 template <PunctualShape S>
 Wide flux_ratio(const S& shape, const Conventions& conventions) {
@@ -50,7 +50,8 @@ Result<Wide> unchecked_ratio(const S& shape, Dimension quantity, const Conventio
     case Dimension::luminous_flux: {
       const Wide steradians = flux_ratio(shape, conventions);
       if (steradians.hi > 0) return steradians;
-      return error("SIZE_MISSING", "flux needs an opening angle greater than zero: within none the intensity is infinite");
+      return parameter_error("outer", "SIZE_MISSING",
+                             "flux needs an opening angle greater than zero: within none the intensity is infinite");
     }
     case Dimension::illuminance: {
       const Result<double> distance = checked_distance(shape, distance_m);
@@ -113,7 +114,8 @@ Result<Wide> unchecked_ratio(const DistantShape& shape, Dimension quantity, cons
   if (quantity != Dimension::luminance && quantity != Dimension::illuminance)
     return unsuitable("it is infinitely far away", "give its illuminance");
   if (shape.diameter_rad == 0)
-    return error("SIZE_MISSING", "a luminance needs an angular diameter greater than zero: that of a direction is infinite");
+    return parameter_error("angular_diameter", "SIZE_MISSING",
+                           "a luminance needs an angular diameter greater than zero: that of a direction is infinite");
   return quantity == Dimension::luminance ? Wide(1) : wide_pi * squared(std::sin(shape.diameter_rad / 2));
 }
 
@@ -144,8 +146,8 @@ Result<Wide> ratio_of(const S& shape, Dimension quantity, const Conventions& con
   if (!needs_no_size<S>(quantity))
     if (const Status sized = check_size(shape); !sized) return sized.error();
   if (ratio && !(ratio->hi > 0 && std::isfinite(ratio->hi)))
-    return error("NUMBER_INVALID",
-                 fmt::format("expected sizes whose areas are within the range of a double, found a factor of {}", ratio->hi));
+    return parameter_error("shape", "NUMBER_INVALID",
+                           fmt::format("expected sizes whose areas are within the range of a double, found a factor of {}", ratio->hi));
   return ratio;
 }
 
@@ -154,8 +156,9 @@ namespace detail {
 template <class S>
 Result<double> converted(const Known& from, const Known& wanted, const S& shape, const Conventions& conventions) {
   if (!(from.si >= 0 && std::isfinite(from.si)))
-    return error("NUMBER_INVALID", fmt::format("expected a {} that is finite and not negative, found {} {}", name_of(from.dimension),
-                                               from.si, si_unit_of(from.dimension)));
+    return parameter_error("value", "NUMBER_INVALID",
+                           fmt::format("expected a {} that is finite and not negative, found {} {}", name_of(from.dimension), from.si,
+                                       si_unit_of(from.dimension)));
   if (from.dimension == wanted.dimension && from.distance_m == wanted.distance_m) return from.si;
   const Result<Wide> divisor = ratio_of(shape, from.dimension, conventions, from.distance_m);
   if (!divisor) return divisor.error();
@@ -163,7 +166,7 @@ Result<double> converted(const Known& from, const Known& wanted, const S& shape,
   if (!factor) return factor.error();
   const double result(from.si * (*factor / *divisor));
   if (std::isfinite(result)) return result;
-  return error("NUMBER_INVALID", fmt::format("the {} is beyond the range of a double", name_of(wanted.dimension)));
+  return parameter_error("value", "NUMBER_INVALID", fmt::format("the {} is beyond the range of a double", name_of(wanted.dimension)));
 }
 
 }  // namespace detail
@@ -201,13 +204,14 @@ Result<SolidAngle> solid_angle_of_cone(Angle full_angle) {
 namespace {
 Status checked(double si, Efficacy efficacy) {
   if (!(si >= 0 && std::isfinite(si)))
-    return error("NUMBER_INVALID", fmt::format("expected a quantity that is finite and not negative, found {}", si));
+    return parameter_error("value", "NUMBER_INVALID", fmt::format("expected a quantity that is finite and not negative, found {}", si));
   if (efficacy.si > 0 && std::isfinite(efficacy.si)) return Done{};
-  return error("NUMBER_INVALID", fmt::format("expected an efficacy above 0 lm/W and finite, found {} lm/W", efficacy.si));
+  return parameter_error("efficacy", "NUMBER_INVALID",
+                         fmt::format("expected an efficacy above 0 lm/W and finite, found {} lm/W", efficacy.si));
 }
 Result<double> within_double(double x) {
   if (std::isfinite(x)) return x;
-  return error("NUMBER_INVALID", "the result is beyond the range of a double");
+  return parameter_error("value", "NUMBER_INVALID", "the result is beyond the range of a double");
 }
 }  // namespace
 

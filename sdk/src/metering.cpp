@@ -1,5 +1,7 @@
 #include "etendue/metering.h"
 
+#include "parameter_error.h"
+
 #include "etendue/colour.h"
 
 #include <fmt/format.h>
@@ -34,13 +36,10 @@ struct Log2Limits {
 Result<Log2Limits> checked(const MeterLimits& limits) {
   if (limits.least > 0 && limits.least <= limits.greatest && std::isfinite(limits.greatest))
     return Log2Limits{std::log2(limits.least), std::log2(limits.greatest)};
-  return Error{"METER_LIMITS_INVALID",
-               fmt::format("expected limits 0 < least <= greatest, finite, found {} and {}", limits.least, limits.greatest),
-               {},
-               {},
-               {}};
+  return parameter_error("limits", "METER_LIMITS_INVALID",
+                         fmt::format("expected limits 0 < least <= greatest, finite, found {} and {}", limits.least, limits.greatest));
 }
-Error nothing_metered() { return {"NOTHING_METERED", "expected at least one pixel that is finite, found none", {}, {}, {}}; }
+Error nothing_metered() { return parameter_error("values", "NOTHING_METERED", "expected at least one pixel that is finite, found none"); }
 
 // Whether a value is averaged.
 bool counted(float value, MeterCounts& counts) {
@@ -92,11 +91,8 @@ Result<double> MeterHistogram::mean(const Percentiles& percentiles, const MeterL
   const Result<Log2Limits> held = checked(limits);
   if (!held) return held.error();
   if (!(percentiles.low >= 0 && percentiles.low <= percentiles.high && percentiles.high <= 1))
-    return Error{"PERCENTILES_INVALID",
-                 fmt::format("expected percentiles 0 <= low <= high <= 1, found {} and {}", percentiles.low, percentiles.high),
-                 {},
-                 {},
-                 {}};
+    return parameter_error(percentiles.low >= 0 && percentiles.low <= 1 ? "high" : "low", "PERCENTILES_INVALID",
+                           fmt::format("expected percentiles 0 <= low <= high <= 1, found {} and {}", percentiles.low, percentiles.high));
   if (counts_.averaged == 0) return nothing_metered();
   const auto count = static_cast<double>(counts_.averaged);
   const double first = percentiles.low * count, last = percentiles.high * count;
@@ -112,18 +108,23 @@ Result<double> MeterHistogram::mean(const Percentiles& percentiles, const MeterL
   return std::exp2(last > first ? sum / (last - first) : at_first);
 }
 
-Result<double> MeterHistogram::percentile(double share, const MeterLimits& limits) const { return mean({share, share}, limits); }
+Result<double> MeterHistogram::percentile(double share, const MeterLimits& limits) const {
+  const Result<double> found = mean({share, share}, limits);
+  return found || found.error().code != "PERCENTILES_INVALID" ? found : about("share", found.error());
+}
 
 Result<double> adapted_ev100(double ev100, double target_ev100, double elapsed_s, const Adaptation& adaptation) {
   const double time_constant = target_ev100 > ev100 ? adaptation.brighter_s : adaptation.darker_s;
   if (!std::isfinite(ev100) || !std::isfinite(target_ev100) || !(elapsed_s >= 0) || !(time_constant >= 0))
-    return Error{
+    return parameter_error(
+        !std::isfinite(ev100)          ? "ev100"
+        : !std::isfinite(target_ev100) ? "target_ev100"
+        : !(elapsed_s >= 0)            ? "elapsed_s"
+        : target_ev100 > ev100         ? "brighter_s"
+                                       : "darker_s",
         "ADAPTATION_INVALID",
         fmt::format("expected finite exposure values and times from 0 upwards, found EV {} and {}, {} s elapsed, a constant of {} s", ev100,
-                    target_ev100, elapsed_s, time_constant),
-        {},
-        {},
-        {}};
+                    target_ev100, elapsed_s, time_constant));
   if (std::isinf(elapsed_s) || time_constant == 0) return target_ev100;
   return target_ev100 + (ev100 - target_ev100) * std::exp(-elapsed_s / time_constant);
 }

@@ -1,6 +1,8 @@
 // The definitions of the packed formats, in double; spans of those that need no wide instructions.
 #include "etendue/pixel.h"
 
+#include "parameter_error.h"
+
 #include "etendue/colour.h"
 
 #include <fmt/format.h>
@@ -180,7 +182,9 @@ namespace {
 Error lengths_differ(std::size_t from, std::size_t to) {
   return {"BATCH_SIZES_DIFFER", fmt::format("expected as many elements out as in, found {} and {}", to, from), {}, {}, {}};
 }
-Error bad_range(double range) { return {"RANGE_INVALID", fmt::format("expected a range above 0 and finite, found {}", range), {}, {}, {}}; }
+Error bad_range(double range) {
+  return parameter_error("range", "RANGE_INVALID", fmt::format("expected a range above 0 and finite, found {}", range));
+}
 bool is_range(double range) { return range > 0 && std::isfinite(range); }
 
 template <class From, class To, class Pack>

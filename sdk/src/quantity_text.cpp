@@ -2,6 +2,7 @@
 
 #include "camera_text.h"
 #include "etendue/srgb.h"
+#include "etendue/temperature.h"
 
 #include <array>
 #include <charconv>
@@ -11,11 +12,11 @@ namespace {
 
 Result<double> take_si(Cursor& cursor, Dimension expected) {
   const Cursor before = cursor;
-  const Result<AnyQuantity> quantity = take_quantity(cursor);
+  const Result<Counted> quantity = take_quantity(cursor);
   if (!quantity) return quantity.error();
-  if (quantity->dimension == expected) return quantity->si;
+  if (quantity->unit->dimension == expected) return quantity->si();
   return before.error("DIMENSION_MISMATCH", fmt::format("expected a {} (in {}), found a {}", name_of(expected), si_unit_of(expected),
-                                                        name_of(quantity->dimension)));
+                                                        name_of(quantity->unit->dimension)));
 }
 
 // ---- Colours ----
@@ -60,8 +61,21 @@ Result<Written> take_chromaticity(Cursor cursor) {
   return at.error("COLOUR_INVALID", fmt::format("expected a chromaticity with x >= 0, y > 0 and x + y <= 1, found {} {}", x, y));
 }
 
+Written in_kelvin(double kelvin) { return WrittenQuantity{kelvin, {Dimension::temperature}}; }
+
+// What becomes of temperatures that lights do not have: refused, or where somebody listens clamped.
+Result<double> legal(double kelvin, const Cursor& at, Diagnostics* clamped) {
+  const Result<double> checked = checked_temperature(kelvin);
+  if (checked) return checked;
+  const Result<ClampedTemperature> nearest = clamped != nullptr ? clamped_temperature(kelvin) : Result<ClampedTemperature>(checked.error());
+  if (!nearest) return at.located(nearest.error());
+  clamped->warning("TEMPERATURE_CLAMPED", fmt::format("{} K counts as {} K, the nearest there is", kelvin, nearest->kelvin),
+                   at.located({}).where);
+  return nearest->kelvin;
+}
+
 // "3000 K Duv -0.003", "3200 K + 137 mired".
-Result<Written> take_colour_temperature(double kelvin, Cursor cursor) {
+Result<Written> take_colour_temperature(double kelvin, Cursor cursor, Diagnostics* clamped) {
   if (cursor.take("Duv")) {
     const Result<double> duv = cursor.number();
     if (!duv) return duv.error();
@@ -79,7 +93,8 @@ Result<Written> take_colour_temperature(double kelvin, Cursor cursor) {
   if (!cursor.take("mired") || !cursor.at_end()) return cursor.unexpected("mired, as in 3200 K + 137 mired");
   const Result<double> shifted = shifted_by_mired(kelvin, minus ? -*shift : *shift);
   if (!shifted) return at.located(shifted.error());
-  return Written{WrittenQuantity{{Dimension::temperature, *shifted}, {}, {}}};
+  const Result<double> left = legal(*shifted, at, clamped);
+  return left ? Result<Written>(in_kelvin(*left)) : left.error();
 }
 
 // ---- Quantities ----
@@ -95,7 +110,8 @@ bool is_camera_unit(std::string_view word, const Cursor& behind) {
   return (word == "s" || word == "ms" || word == "us" || word == "stop") && !behind.at_end();
 }
 
-Result<Written> take_numbered(Cursor cursor) {
+Result<Written> take_numbered(Cursor cursor, Diagnostics* clamped) {
+  const Cursor start = cursor;
   Cursor ahead = cursor;
   double number = 0;
   std::string_view rest = ahead.rest();
@@ -106,17 +122,21 @@ Result<Written> take_numbered(Cursor cursor) {
     ahead.skip(word.size());
     if (is_camera_unit(word, ahead)) return written(take_camera(cursor));
   }
-  const Result<AnyQuantity> quantity = take_quantity(cursor);
+  const Result<Counted> quantity = take_quantity(cursor);
   if (!quantity) return quantity.error();
-  WrittenQuantity said{*quantity, {}, {}};
-  if (quantity->dimension == Dimension::temperature && (cursor.next() == '+' || cursor.next() == '-' || cursor.next() == 'D'))
-    return take_colour_temperature(quantity->si, cursor);
+  const Dimension dimension = quantity->unit->dimension;
+  WrittenQuantity said{quantity->number, *quantity->unit};
+  if (dimension == Dimension::temperature) {
+    const Result<double> kelvin = legal(quantity->si(), start, clamped);
+    if (!kelvin) return kelvin.error();
+    if (cursor.next() == '+' || cursor.next() == '-' || cursor.next() == 'D') return take_colour_temperature(*kelvin, cursor, clamped);
+    if (*kelvin != quantity->si() && cursor.at_end()) return in_kelvin(*kelvin);
+  }
   while (!cursor.at_end()) {
     const Cursor at = cursor;
     if (!said.distance_m && cursor.take("@")) {
-      if (quantity->dimension != Dimension::illuminance && quantity->dimension != Dimension::irradiance)
-        return at.error("DIMENSION_MISMATCH",
-                        fmt::format("only an illuminance has a distance, found one behind a {}", name_of(quantity->dimension)));
+      if (dimension != Dimension::illuminance && dimension != Dimension::irradiance)
+        return at.error("DIMENSION_MISMATCH", fmt::format("only an illuminance has a distance, found one behind a {}", name_of(dimension)));
       const Result<double> distance = take_si(cursor, Dimension::length);
       if (!distance) return distance.error();
       said.distance_m = *distance;
@@ -136,7 +156,7 @@ Result<Written> take_numbered(Cursor cursor) {
 
 struct Printer {
   std::string operator()(const WrittenQuantity& w) const {
-    std::string text = to_string(w.quantity);
+    std::string text = to_string(w.quantity());
     if (w.distance_m) text += fmt::format(" @ {} m", *w.distance_m);
     if (w.efficacy_lm_W) text += fmt::format(" at {} lm/W", *w.efficacy_lm_W);
     return text;
@@ -147,11 +167,11 @@ struct Printer {
   std::string operator()(const Rgb& rgb) const { return fmt::format("rgb {} {} {}", rgb.x, rgb.y, rgb.z); }
 };
 
-}  // namespace
+// ---- All of it ----
 
-Result<Written> parse(std::string_view text) {
+Result<Written> parsed(std::string_view text, Diagnostics* clamped) {
   Cursor cursor(trimmed(text));
-  if (cursor.is_number_start()) return take_numbered(cursor);
+  if (cursor.is_number_start()) return take_numbered(cursor, clamped);
   if (cursor.next() == '#') return take_hex(cursor);
   if (cursor.take_name("xy")) return take_chromaticity(cursor);
   if (cursor.take_name("rgb")) {
@@ -166,6 +186,11 @@ Result<Written> parse(std::string_view text) {
                                   "#ffb46b, found \"{}\"",
                                   text));
 }
+
+}  // namespace
+
+Result<Written> parse(std::string_view text) { return parsed(text, nullptr); }
+Result<Written> parse(std::string_view text, Diagnostics& clamped) { return parsed(text, &clamped); }
 
 std::string to_string(const Written& written) { return std::visit(Printer{}, written); }
 

@@ -1,7 +1,9 @@
 #include "etendue/spectrum.h"
 
+#include "parameter_error.h"
 #include "planck_locus.h"
 
+#include "etendue/temperature.h"
 #include "etendue/units.h"
 
 #include <fmt/format.h>
@@ -22,33 +24,23 @@ Status valid(const Spectrum& spectrum) {
   const bool good = spectrum.first_nm >= 0 && spectrum.step_nm > 0 && end_of(spectrum) <= longest_nm && spectrum.values.size() >= 2 &&
                     std::all_of(spectrum.values.begin(), spectrum.values.end(), [](double v) { return v >= 0 && std::isfinite(v); });
   if (good) return Done{};
-  return Error{
-      "SPECTRUM_INVALID",
+  return parameter_error(
+      "spectrum", "SPECTRUM_INVALID",
       fmt::format("expected two values or more, finite and from 0 upwards, at positive steps between 0 nm and 1 mm, found {} from {} nm at "
                   "steps of {} nm",
-                  spectrum.values.size(), spectrum.first_nm, spectrum.step_nm),
-      {},
-      {},
-      {}};
+                  spectrum.values.size(), spectrum.first_nm, spectrum.step_nm));
 }
 
 Status valid(const Band& band) {
   if (band.first_nm >= 0 && band.first_nm < band.last_nm) return Done{};
-  return Error{
-      "BAND_INVALID",
-      fmt::format("expected a band from 0 nm upwards, its end after its beginning, found {} nm to {} nm", band.first_nm, band.last_nm),
-      {},
-      {},
-      {}};
+  return parameter_error(
+      "band", "BAND_INVALID",
+      fmt::format("expected a band from 0 nm upwards, its end after its beginning, found {} nm to {} nm", band.first_nm, band.last_nm));
 }
 
 Result<double> of_temperature(double temperature_K, double value) {
-  if (temperature_K >= 100 && temperature_K <= 100000) return value;
-  return Error{"TEMPERATURE_OUT_OF_RANGE",
-               fmt::format("expected a temperature of a Planckian radiator between 100 K and 100000 K, found {} K", temperature_K),
-               {},
-               {},
-               {}};
+  const Result<double> checked = checked_temperature(temperature_K);
+  return checked ? Result<double>(value) : checked;
 }
 
 double at(const Spectrum& spectrum, double wavelength_nm) {
@@ -88,7 +80,8 @@ Result<double> efficacy(const Spectrum& spectrum, const Band& band) {
   if (const Status checked = valid(band); !checked) return checked.error();
   const double low = std::max(band.first_nm, spectrum.first_nm), high = std::min(band.last_nm, end_of(spectrum));
   const double radiant = summed(low, high, [&](double l) { return at(spectrum, l); });
-  if (!(radiant > 0)) return Error{"EFFICACY_UNDEFINED", "expected a spectrum with radiation within the band, found none", {}, {}, {}};
+  if (!(radiant > 0))
+    return parameter_error("spectrum", "EFFICACY_UNDEFINED", "expected a spectrum with radiation within the band, found none");
   return k_m_lm_W * summed(low, high, [&](double l) { return v_lambda(l) * at(spectrum, l); }) / radiant;
 }
 
@@ -121,7 +114,7 @@ Result<double> blackbody_efficacy(double temperature_K, const Band& band) {
   const double radiance = whole ? sigma_W_m2_K4 * std::pow(temperature_K, 4) / pi
                                 : nm * summed(low, high, [&](double l) { return planck_radiance(l * nm, temperature_K); });
   if (const Result<double> in_range = of_temperature(temperature_K, radiance); !in_range) return in_range.error();
-  if (!(radiance > 0)) return Error{"EFFICACY_UNDEFINED", "expected a band with radiation, found none", {}, {}, {}};
+  if (!(radiance > 0)) return parameter_error("band", "EFFICACY_UNDEFINED", "expected a band with radiation, found none");
   return light / radiance;
 }
 

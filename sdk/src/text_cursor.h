@@ -66,8 +66,13 @@ class Cursor {
   std::string_view whole_, rest_;
 };
 
-// A number, a blank if any, and a unit.
-inline Result<AnyQuantity> take_quantity(Cursor& cursor) {
+// A number, a blank if any, and a unit: finite in SI, but for a temperature of no mired.
+struct Counted {
+  double number;
+  const NamedUnit* unit;
+  double si() const { return unit->to_si(number); }
+};
+inline Result<Counted> take_quantity(Cursor& cursor) {
   const Result<double> number = cursor.number();
   if (!number) return number.error();
   cursor.skip_blanks();
@@ -78,10 +83,11 @@ inline Result<AnyQuantity> take_quantity(Cursor& cursor) {
     return cursor.error("UNIT_MISSING", "expected a unit behind the number, found none", "write for example \"1500 lm\"");
   const NamedUnit* const unit = find_unit(word);
   if (unit == nullptr) return cursor.located(unit_named(word).error());
-  const double si = unit->to_si(*number);
-  if (!std::isfinite(si)) return cursor.error("NUMBER_INVALID", fmt::format("{} {} is beyond the range of a double", *number, word));
+  const Counted counted{*number, unit};
+  if (!std::isfinite(counted.si()) && !unit->reciprocal)
+    return cursor.error("NUMBER_INVALID", fmt::format("{} {} is beyond the range of a double", *number, word));
   cursor.skip(word.size());
-  return AnyQuantity{unit->dimension, si};
+  return counted;
 }
 
 }  // namespace etendue

@@ -11,16 +11,17 @@
 namespace etendue {
 namespace {
 
-constexpr double foot = 0.3048;  // m, exact by definition
+// Factors are quotients of whole numbers, so that they and their products are exact. 1 ft = .3048 m and 1 in = .0254 m by definition.
+constexpr double square_foot = 3048. * 3048;  // in 1e-8 m2
 constexpr std::array<UnitSpelling, 26> spellings{{
     {"lm", "mkM", "lumen", {Dimension::luminous_flux}},
     {"cd", "mkM", "candela", {Dimension::luminous_intensity}},
     {"cd/m2", "mkMG", "candela/m2", {Dimension::luminance}},
     {"nit", "mkMG", "nits", {Dimension::luminance}},
-    {"fL", "", "foot-lambert", {Dimension::luminance, 1, pi* foot* foot}},
+    {"fL", "", "foot-lambert", {Dimension::luminance, 1e8, pi* square_foot}},
     {"lx", "mkM", "lumen/m2", {Dimension::illuminance}},
     {"lux", "mkM", "luxes", {Dimension::illuminance}},
-    {"fc", "", "foot-candle", {Dimension::illuminance, 1, foot* foot}},
+    {"fc", "", "foot-candle", {Dimension::illuminance, 1e8, square_foot}},
     {"lm/m2", "k", "lumen/m2", {Dimension::luminous_exitance}},
     {"W", "umkM", "watt", {Dimension::radiant_flux}},
     {"W/sr", "umkM", "watt/sr", {Dimension::radiant_intensity}},
@@ -28,8 +29,8 @@ constexpr std::array<UnitSpelling, 26> spellings{{
     {"W/m2", "umkM", "watt/m2", {Dimension::irradiance}},
     {"lm/W", "", "lumen/watt", {Dimension::efficacy}},
     {"m", "umck", "metre", {Dimension::length}},
-    {"in", "", "inch", {Dimension::length, 0.0254}},
-    {"ft", "", "foot", {Dimension::length, foot}},
+    {"in", "", "inch", {Dimension::length, 254, 1e4}},
+    {"ft", "", "foot", {Dimension::length, 3048, 1e4}},
     {"deg", "", "degree", {Dimension::angle, pi, 180}},
     {"rad", "um", "radian", {Dimension::angle}},
     {"sr", "um", "steradian", {Dimension::solid_angle}},

@@ -32,7 +32,7 @@ void text_rows(Bench& bench) {
   });
   task.contender("etendue parse_quantity()", Kind::ours, "0", [] { each([](std::string_view text) { return parse_quantity(text)->si; }); });
   task.contender("etendue parse(), cameras and colours too", Kind::ours, "0",
-                 [] { each([](std::string_view text) { return std::get<WrittenQuantity>(*parse(text)).quantity.si; }); });
+                 [] { each([](std::string_view text) { return std::get<WrittenQuantity>(*parse(text)).quantity().si; }); });
 }
 
 }  // namespace etendue::bench

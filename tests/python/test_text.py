@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 import etendue
@@ -28,6 +29,29 @@ def test_what_stands_beside_a_quantity_is_used() -> None:
     assert convert("60 W at 15 lm/W", "lm") == 900
     assert convert("f/16 1/125 ISO100", "EV") == math.log2(256 * 125)
     assert convert("f/16 1/125", "EV_S") == math.log2(256 * 125)
+
+
+def test_a_number_is_rounded_once_on_its_way() -> None:
+    assert convert("6 ft", "cm") == 182.88
+    assert convert(6.0, "cm", unit="ft") == 182.88
+
+
+def test_clamping_is_asked_for_and_told() -> None:
+    with pytest.warns(etendue.ClampedWarning, match="200000 K counts as 100000 K"):
+        assert parse("200000 K", clamp=True) == quantity("100000 K")
+    with pytest.warns(etendue.ClampedWarning):
+        assert parse("90 K Duv 0.01", clamp=True) == colour.ColourTemperature(100, 0.01)
+    assert colour.clamped_temperature(90.0) == (100.0, True)
+    kelvin, clamped = colour.clamped_temperature(np.array([90.0, 5600.0, 2e5]))
+    assert kelvin.tolist() == [100, 5600, 100000]
+    assert clamped.tolist() == [True, False, True]
+
+
+def test_an_efficacy_may_be_a_policy_by_name() -> None:
+    assert convert("1 W", "lm", efficacy="CIE D65") == 204.8
+    assert convert("1 W", "lm", efficacy="2856 K") == etendue.spectrum.blackbody_efficacy(2856.0)
+    assert convert("1 W", "lm", efficacy="2856 K visible") == pytest.approx(155.8, abs=0.1)
+    assert any("CIE D65" in note for note in explain("1 W", "lm", efficacy="CIE D65").notes)
 
 
 def test_units_are_listed() -> None:

@@ -74,6 +74,66 @@ TEST(Convert, GoesBothWays) {
   EXPECT_EQ(pairs, 5 * (6 * 5 + 3 * 2) + 7 * (10 * 9) + (6 * 5 + 2 * 2) + 2 * (5 * 4 + 2 * 2));
 }
 
+// Units whose factors are quotients of whole numbers convert a whole number as one division of whole numbers does: to the nearest double.
+TEST(Convert, UnitsAreRoundedOnce) {
+  const auto unit = [](const char* name) { return *unit_named(name); };
+  for (const auto& group : {std::vector<const char*>{"m", "cm", "mm", "um", "km", "in", "ft"},
+                            {"lx", "klx", "mlx", "fc"},
+                            {"s", "ms", "us"},
+                            {"W", "kW", "uW", "MW"}})
+    for (const char* const from : group)
+      for (const char* const to : group) {
+        const NamedUnit given = unit(from), wanted = unit(to);
+        const Conversion conversion = *Conversion::between(given, wanted, {});
+        for (int x = 0; x < 500; ++x) {
+          const double above = x * given.times * wanted.over, below = given.over * wanted.times;
+          if (above > 9e15 || below > 9e15) continue;  // no longer whole numbers in a double
+          EXPECT_EQ(*conversion(x), above / below) << x << " " << from << " in " << to;
+        }
+      }
+  EXPECT_EQ(*Conversion::between(unit("ft"), unit("cm"), {})->operator()(6), 182.88);
+}
+
+TEST(Convert, TemperaturesOfLightsOnly) {
+  const Conversion to_mired = *Conversion::between(*unit_named("K"), *unit_named("mired"), {});
+  EXPECT_EQ(*to_mired(5000), 200);
+  for (const double none : {0.0, -100.0, 99.0, 100001.0}) {
+    EXPECT_EQ(to_mired(none).error().code, "TEMPERATURE_OUT_OF_RANGE") << none;
+    EXPECT_EQ(to_mired(none).error().where.pointer, "/value");
+    EXPECT_NE(to_mired(none).error().text.find("between 100 K and 100000 K"), std::string::npos);
+  }
+  const Conversion from_mired = *Conversion::between(*unit_named("mired"), *unit_named("K"), {});
+  EXPECT_EQ(*from_mired(200), 5000);
+  EXPECT_EQ(from_mired(0).error().code, "TEMPERATURE_OUT_OF_RANGE");
+  EXPECT_EQ(convert({Dimension::temperature, -1}, Dimension::temperature, {}).error().code, "TEMPERATURE_OUT_OF_RANGE");
+}
+
+TEST(ConvertErrors, NameTheParameter) {
+  const auto pointer = [](const AnyQuantity& given, Dimension wanted, const LightSetup& setup) {
+    return convert(given, wanted, setup).error().where.pointer;
+  };
+  const AnyQuantity flux{Dimension::luminous_flux, 1};
+  const auto of = [](Shape shape) {
+    LightSetup setup;
+    setup.shape = std::move(shape);
+    return setup;
+  };
+  EXPECT_EQ(pointer(flux, Dimension::luminance, {}), "/shape");
+  EXPECT_EQ(pointer(flux, Dimension::luminance, of(PointShape{})), "/shape");
+  EXPECT_EQ(pointer(flux, Dimension::luminance, of(SphereShape{0})), "/radius");
+  EXPECT_EQ(pointer(flux, Dimension::luminance, of(RectShape{1, -1})), "/height");
+  EXPECT_EQ(pointer(flux, Dimension::luminance, of(TubeShape{-1, 1, Caps::round})), "/length");
+  EXPECT_EQ(pointer(flux, Dimension::luminance, of(PolygonShape{})), "/points");
+  EXPECT_EQ(pointer(flux, Dimension::luminance, of(MeshShape{})), "/area_m2");
+  EXPECT_EQ(pointer(flux, Dimension::luminous_intensity, of(SpotShape{1, 0.5})), "/inner");
+  EXPECT_EQ(pointer(flux, Dimension::luminous_intensity, of(SpotShape{0, 4})), "/outer");
+  EXPECT_EQ(pointer(flux, Dimension::luminous_intensity, of(FrustumShape{4, 1})), "/width_angle");
+  EXPECT_EQ(pointer(flux, Dimension::illuminance, of(PointShape{})), "/distance");
+  EXPECT_EQ(pointer({Dimension::radiant_flux, 1}, Dimension::luminous_flux, {}), "/efficacy");
+  EXPECT_EQ(pointer({Dimension::luminous_flux, -1}, Dimension::luminous_intensity, of(PointShape{})), "/value");
+  EXPECT_EQ(pointer({Dimension::luminance, 0}, Dimension::exposure_value, {}), "/value");
+}
+
 TEST(Convert, ExposureValues) {
   const LightSetup nothing;
   EXPECT_EQ(*convert({D::exposure_value, 15}, D::luminance, nothing), 4096);

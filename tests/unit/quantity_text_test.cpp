@@ -24,20 +24,20 @@ WrittenQuantity quantity(const char* text) { return read<WrittenQuantity>(text);
 CameraSettings camera(const char* text) { return read<CameraSettings>(text); }
 
 TEST(Parse, QuantitiesOfLights) {
-  EXPECT_EQ(quantity("1200 lm").quantity.si, 1200);
-  EXPECT_EQ(quantity(" 1200lm ").quantity.dimension, Dimension::luminous_flux);
-  EXPECT_EQ(quantity("-3 EV").quantity.si, -3);
-  EXPECT_EQ(quantity("+1.5 stop").quantity.si, 1.5);
-  EXPECT_EQ(quantity("180 deg").quantity.si, pi);
-  EXPECT_EQ(quantity("8 ms").quantity.si, 0.008);
+  EXPECT_EQ(quantity("1200 lm").quantity().si, 1200);
+  EXPECT_EQ(quantity(" 1200lm ").quantity().dimension, Dimension::luminous_flux);
+  EXPECT_EQ(quantity("-3 EV").quantity().si, -3);
+  EXPECT_EQ(quantity("+1.5 stop").quantity().si, 1.5);
+  EXPECT_EQ(quantity("180 deg").quantity().si, pi);
+  EXPECT_EQ(quantity("8 ms").quantity().si, 0.008);
   const WrittenQuantity key = quantity("15 klx @ 2 m");
-  EXPECT_EQ(key.quantity.dimension, Dimension::illuminance);
-  EXPECT_EQ(key.quantity.si, 15000);
+  EXPECT_EQ(key.quantity().dimension, Dimension::illuminance);
+  EXPECT_EQ(key.quantity().si, 15000);
   EXPECT_EQ(key.distance_m, 2);
   EXPECT_EQ(quantity("15klx@2m").distance_m, 2);
   EXPECT_EQ(quantity("15 klx @ 60 cm").distance_m, 0.6);
   const WrittenQuantity bulb = quantity("60 W at 15 lm/W");
-  EXPECT_EQ(bulb.quantity.si, 60);
+  EXPECT_EQ(bulb.quantity().si, 60);
   EXPECT_EQ(bulb.efficacy_lm_W, 15);
   EXPECT_EQ(quantity("3 W/m2 @ 2 m at 90 lm/W").efficacy_lm_W, 90);
 }
@@ -66,10 +66,10 @@ TEST(Parse, Colours) {
   const ColourTemperature warm = read<ColourTemperature>("3000 K Duv -0.003");
   EXPECT_EQ(warm.kelvin, 3000);
   EXPECT_EQ(warm.duv, -0.003);
-  EXPECT_EQ(quantity("5600 K").quantity.si, 5600);
+  EXPECT_EQ(quantity("5600 K").quantity().si, 5600);
   // 1e6 / (312.5 + 137): a full CTO before a 3200 K lamp.
-  EXPECT_NEAR(quantity("3200 K + 137 mired").quantity.si, 1e6 / 449.5, 1e-12 * 2224);
-  EXPECT_NEAR(quantity("3200K -137mired").quantity.si, 1e6 / 175.5, 1e-12 * 5698);
+  EXPECT_NEAR(quantity("3200 K + 137 mired").quantity().si, 1e6 / 449.5, 1e-12 * 2224);
+  EXPECT_NEAR(quantity("3200K -137mired").quantity().si, 1e6 / 175.5, 1e-12 * 5698);
   const Chromaticity d65 = read<Chromaticity>("xy .3127 .329");
   EXPECT_EQ(d65.x, 0.3127);
   EXPECT_EQ(d65.y, 0.329);
@@ -103,8 +103,9 @@ TEST(Print, ReadsBackAsTheSame) {
     EXPECT_EQ(back.shutter_s, y);
     EXPECT_EQ(back.iso, 1 / y);
     EXPECT_EQ(back.compensation_stop, -y);
-    const ColourTemperature t = std::get<ColourTemperature>(*parse(to_string(Written{ColourTemperature{x, -y}})));
-    EXPECT_EQ(t.kelvin, x);
+    const double kelvin = 100 * std::exp(std::abs(std::log(x)) / 44);  // up to 91500 K
+    const ColourTemperature t = std::get<ColourTemperature>(*parse(to_string(Written{ColourTemperature{kelvin, -y}})));
+    EXPECT_EQ(t.kelvin, kelvin);
     EXPECT_EQ(t.duv, -y);
   }
 }
@@ -144,6 +145,18 @@ TEST(ParseErrors, SayWhatAndWhere) {
       {"3000 K Duv .1 x", "TEXT_UNEXPECTED", "x", 15},
       {"3200 K + 137", "TEXT_UNEXPECTED", "mired", 13},
       {"3200 K - 400 mired", "TEMPERATURE_OUT_OF_RANGE", "", 10},
+      {"-100 K", "TEMPERATURE_OUT_OF_RANGE", "between 100 K and 100000 K, found -100 K", 1},
+      {"-100 K Duv 0", "TEMPERATURE_OUT_OF_RANGE", "between 100 K and 100000 K, found -100 K", 1},
+      {"0 K", "TEMPERATURE_OUT_OF_RANGE", "found 0 K", 1},
+      {"0 K Duv .01", "TEMPERATURE_OUT_OF_RANGE", "found 0 K", 1},
+      {"99 K", "TEMPERATURE_OUT_OF_RANGE", "found 99 K", 1},
+      {"100001 K Duv 0", "TEMPERATURE_OUT_OF_RANGE", "found 100001 K", 1},
+      {"1e300 K", "TEMPERATURE_OUT_OF_RANGE", "100000 K", 1},
+      {"0 mired", "TEMPERATURE_OUT_OF_RANGE", "found inf K", 1},
+      {"9 mired", "TEMPERATURE_OUT_OF_RANGE", "found 111111", 1},
+      {"-200 mired", "TEMPERATURE_OUT_OF_RANGE", "found -5000 K", 1},
+      {"-100 K + 137 mired", "TEMPERATURE_OUT_OF_RANGE", "found -100 K", 1},
+      {"50000 K - 15 mired", "TEMPERATURE_OUT_OF_RANGE", "found 200000 K", 11},
       {"xy .3127", "NUMBER_INVALID", "2 numbers", 9},
       {"xy nan .3", "NUMBER_INVALID", "xy", 1},
       {"xy 0 0", "COLOUR_INVALID", "y > 0", 4},
@@ -160,6 +173,39 @@ TEST(ParseErrors, SayWhatAndWhere) {
     EXPECT_NE(written.error().text.find(bad.names), std::string::npos) << bad.text << ": " << written.error().text;
     EXPECT_EQ(written.error().where.column, bad.column) << bad.text << ": " << written.error().text;
   }
+}
+
+TEST(ParseErrors, NameTheCameraSetting) {
+  for (const auto& [text, setting] : {std::pair{"f/0 1/60 s", "/f_number"},
+                                      {"f/4 1/0 s", "/shutter_s"},
+                                      {"ISO -1", "/iso"},
+                                      {"ND -0.3", "/nd_density"},
+                                      {"0 fps", "/frames_per_s"},
+                                      {"T2 T2", "/t_stop"},
+                                      {"-100 K Duv 0", "/kelvin"}})
+    EXPECT_EQ(parse(text).error().where.pointer, setting) << text;
+}
+
+// Opt-in: the nearest temperature and a warning with both, but never for what is no temperature.
+TEST(Parse, ClampsTemperaturesForThoseWhoAsk) {
+  for (const auto& [text, kelvin] :
+       {std::pair{"200000 K", 100000.0}, {"99 K", 100.0}, {"5 mired", 100000.0}, {"50000 K - 15 mired", 1e5}}) {
+    Diagnostics clamped;
+    const Result<Written> written = parse(text, clamped);
+    ASSERT_TRUE(written.ok()) << text;
+    EXPECT_EQ(std::get<WrittenQuantity>(*written).quantity().si, kelvin) << text;
+    ASSERT_EQ(clamped.all().size(), 1U) << text;
+    EXPECT_EQ(clamped.all()[0].code, "TEMPERATURE_CLAMPED");
+    EXPECT_GT(clamped.all()[0].where.column, 0);
+  }
+  Diagnostics clamped;
+  EXPECT_EQ(std::get<ColourTemperature>(*parse("1e9 K Duv .01", clamped)).kelvin, 100000);
+  EXPECT_EQ(clamped.all().size(), 1U);
+  EXPECT_EQ(std::get<WrittenQuantity>(*parse("5600 K", clamped)).quantity().si, 5600);
+  EXPECT_EQ(clamped.all().size(), 1U) << "5600 K is as it was";
+  for (const char* const none : {"0 K", "-100 K", "-100 K Duv 0", "-1 mired"})
+    EXPECT_EQ(parse(none, clamped).error().code, "TEMPERATURE_OUT_OF_RANGE") << none;
+  EXPECT_EQ(clamped.all().size(), 1U);
 }
 
 TEST(ParseErrors, SuggestUnits) {

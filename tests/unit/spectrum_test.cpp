@@ -11,6 +11,29 @@ namespace etendue {
 namespace {
 
 // Computed independently from the same tables, printed to four digits.
+TEST(EfficacyPolicy, NumbersPresetsAndTemperatures) {
+  EXPECT_EQ(efficacy_policy("15 lm/W")->lm_W, 15);
+  EXPECT_EQ(efficacy_policy("15 lm/W")->source, "");
+  EXPECT_EQ(efficacy_policy(" CIE D65 ")->lm_W, 204.8);
+  EXPECT_FALSE(efficacy_policy("CIE D65")->source.empty());
+  EXPECT_EQ(efficacy_policy("K_cd")->lm_W, 683);
+  // Facts of 2856 K: 16.446 lm/W of all radiation, 155.8 of what CIE A has within 380 nm to 780 nm.
+  EXPECT_NEAR(efficacy_policy("2856 K")->lm_W, 16.446, 5e-4);
+  EXPECT_NEAR(efficacy_policy("2856 K visible")->lm_W, 155.8, 0.1);
+  for (const auto& [text, code] : {std::pair{"incandescent", "EFFICACY_AMBIGUOUS"},
+                                   {"CIE D66", "PRESET_UNKNOWN"},
+                                   {"", "PRESET_UNKNOWN"},
+                                   {"15 lm", "DIMENSION_MISMATCH"},
+                                   {"15 lm/W visible", "DIMENSION_MISMATCH"},
+                                   {"15", "UNIT_MISSING"},
+                                   {"-100 K", "TEMPERATURE_OUT_OF_RANGE"}}) {
+    const Result<EfficacyPolicy> refused = efficacy_policy(text);
+    ASSERT_FALSE(refused.ok()) << text;
+    EXPECT_EQ(refused.error().code, code) << text;
+    EXPECT_EQ(refused.error().where.pointer, "/efficacy") << text;
+  }
+}
+
 TEST(Blackbody, LuminanceAndEfficacyMatchTheTable) {
   struct Row {
     double kelvin, luminance, efficacy;
@@ -165,7 +188,7 @@ TEST(Presets, AreInOrderAndKnowTheirNames) {
   EXPECT_EQ(temperature_preset("candle flam").error().code, "PRESET_UNKNOWN");
   EXPECT_NE(temperature_preset("candle flam").error().hint.find("candle flame"), std::string::npos);
   for (const EfficacyPreset& preset : efficacy_presets()) {
-    EXPECT_TRUE(preset.low_lm_W > 0 && preset.low_lm_W <= preset.high_lm_W && preset.high_lm_W < 683) << preset.name;
+    EXPECT_TRUE(preset.low_lm_W > 0 && preset.low_lm_W <= preset.high_lm_W && preset.high_lm_W <= k_cd_lm_W) << preset.name;
     EXPECT_EQ(efficacy_preset(preset.name)->low_lm_W, preset.low_lm_W);
   }
   EXPECT_EQ(efficacy_preset("").error().code, "PRESET_UNKNOWN");

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "etendue/light_units.h"
+#include "etendue/unit_names.h"
 
 namespace etendue {
 
@@ -30,21 +31,28 @@ class Conversion {
   // SOLID_ANGLE_MISSING, UNIT_UNSUITABLE (the shape does not know one of the two), NUMBER_INVALID (a size, an angle, a distance, an
   // efficacy or a meter's constant out of range). They name the field, what was found and what is legal.
   static Result<Conversion> between(Dimension given, Dimension wanted, const LightSetup& setup);
+  // Of numbers in these units: their factors and the ratio are one number of 106 bits, so that a product is rounded once (6 ft are 182.88
+  // cm). Degrees and foot-lamberts have pi in theirs, which is rounded before.
+  static Result<Conversion> between(const NamedUnit& given, const NamedUnit& wanted, const LightSetup& setup);
 
-  // SI to SI. NUMBER_INVALID: not finite, negative (exposure values may be), or a result beyond a double; LUMINANCE_NOT_POSITIVE,
+  // From the unit of one side to that of the other: of SI, or those that were named. NUMBER_INVALID: not finite, negative (exposure values
+  // and what is no quantity of a light may be), or a result beyond a double; TEMPERATURE_OUT_OF_RANGE; LUMINANCE_NOT_POSITIVE,
   // ILLUMINANCE_NOT_POSITIVE: 0 has no exposure value.
-  Result<double> operator()(double si) const;
+  Result<double> operator()(double x) const;
 
-  Dimension given() const { return given_; }
-  Dimension wanted() const { return wanted_; }
+  Dimension given() const { return given_.dimension; }
+  Dimension wanted() const { return wanted_.dimension; }
   // The lm/W that the result depends on, if it does.
   std::optional<double> efficacy_lm_W() const { return efficacy_lm_W_; }
 
  private:
-  Dimension given_{}, wanted_{};
+  bool by_way_of_si() const;
+
+  NamedUnit given_{}, wanted_{};
   // What exposure values stand for on either side, over 2^EV; 0: the side is no exposure value.
   double given_per_ev_ = 0, wanted_per_ev_ = 0;
-  double ratio_ = 1, ratio_rest_ = 0;  // their sum, unevaluated
+  // Their sum, unevaluated: of SI where one side is an exposure value or a reciprocal, else of the two units.
+  double ratio_ = 1, ratio_rest_ = 0;
   std::optional<double> efficacy_lm_W_;
 };
 

@@ -5,6 +5,7 @@
 #include "etendue/result.h"
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace etendue {
@@ -31,5 +32,15 @@ struct EfficacyPreset {
 std::span<const EfficacyPreset> efficacy_presets();
 // PRESET_UNKNOWN.
 Result<EfficacyPreset> efficacy_preset(std::string_view name);
+
+// How watts become lumens, as people say it: "15 lm/W"; a preset that is one number, "CIE D65"; a Planckian radiator, "2856 K" for all that
+// it radiates, "2856 K visible" for what of it lies within 380 nm to 780 nm.
+struct EfficacyPolicy {
+  double lm_W = 0;
+  std::string name;    // as it was said
+  std::string source;  // "" of a plain number
+};
+// EFFICACY_AMBIGUOUS for a preset that is a range; PRESET_UNKNOWN; those of parse_quantity(), DIMENSION_MISMATCH; TEMPERATURE_OUT_OF_RANGE.
+Result<EfficacyPolicy> efficacy_policy(std::string_view text);
 
 }  // namespace etendue

@@ -6,17 +6,20 @@
 
 #include "etendue/camera.h"
 #include "etendue/colour.h"
-#include "etendue/units.h"
+#include "etendue/unit_names.h"
 
 #include <variant>
 
 namespace etendue {
 
-// A quantity and what was written beside it.
+// A number in the unit that was written, and what was written beside it.
 struct WrittenQuantity {
-  AnyQuantity quantity;
-  std::optional<double> distance_m;     // behind an illuminance: "@ 2 m"
-  std::optional<double> efficacy_lm_W;  // behind a radiometric quantity: "at 15 lm/W"
+  double number = 0;
+  NamedUnit unit{};
+  std::optional<double> distance_m{};     // behind an illuminance: "@ 2 m"
+  std::optional<double> efficacy_lm_W{};  // behind a radiometric quantity: "at 15 lm/W"
+
+  AnyQuantity quantity() const { return {unit.dimension, unit.to_si(number)}; }
 };
 
 // A temperature without Duv is a quantity. Rgb is linear Rec.709; "#ffb46b" is sRGB (IEC 61966-2-1), decoded.
@@ -27,6 +30,9 @@ using Written = std::variant<WrittenQuantity, CameraSettings, ColourTemperature,
 // spellings), DIMENSION_MISMATCH (a distance behind anything but an illuminance), CAMERA_SETTING_INVALID, CAMERA_SETTING_AMBIGUOUS (given
 // twice), TEMPERATURE_OUT_OF_RANGE, COLOUR_INVALID, TEXT_UNEXPECTED (what is left over). About 40 ns for "1200 lm".
 Result<Written> parse(std::string_view text);
+// The same, but a temperature above 0 K that is beyond the range counts as the nearest end of it, and `clamped` gets a warning
+// TEMPERATURE_CLAMPED with both.
+Result<Written> parse(std::string_view text, Diagnostics& clamped);
 
 // Shortest text that parse() reads back as the same numbers.
 std::string to_string(const Written& written);

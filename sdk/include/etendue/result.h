@@ -16,7 +16,7 @@ struct Where {
   std::string file;
   int line = 0;
   int column = 0;
-  std::string pointer;       // RFC 6901 JSON pointer, "" where the input is not JSON or the place is the root
+  std::string pointer;       // RFC 6901 JSON pointer; of an error about a parameter of a call, its name: "/radius"; else ""
   std::int64_t offset = -1;  // in bytes from the beginning of the file; -1: unknown
 };
 

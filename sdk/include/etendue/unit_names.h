@@ -10,12 +10,13 @@ namespace etendue {
 // What one unit is in SI: times / over, two factors, so that decimal submultiples are divisions and round once. A reciprocal unit (mired)
 // is times / x.
 struct NamedUnit {
-  Dimension dimension;
+  Dimension dimension{};
   double times = 1, over = 1;
   bool reciprocal = false;
 
   double to_si(double x) const { return reciprocal ? times / x : x * times / over; }
   double from_si(double si) const { return reciprocal ? times / si : si * over / times; }
+  friend bool operator==(const NamedUnit&, const NamedUnit&) = default;
 };
 
 // "lm", "klm", "nit"; case counts. UNIT_UNKNOWN, with the nearest spellings in its hint.

@@ -14,9 +14,9 @@
 Whatever cannot be answered is an etendue.Error with code, text, hint, field.
 """
 
-from . import batch, camera, colour, colour_space, dialect, metering, pixel, spectrum
+from . import batch, camera, colour, colour_space, dialect, false_colour, hdri, metering, pixel, spectrum
 from .conversion import Explanation, convert, explain
-from .errors import Error
+from .errors import ClampedWarning, Error
 from .quantity import Quantity, Unit, dimensions, quantity, units
 from .shapes import (
     Disk,
@@ -37,6 +37,7 @@ from .shapes import (
 from .text import Written, WrittenQuantity, parse
 
 __all__ = [
+    "ClampedWarning",
     "Disk",
     "Distant",
     "Environment",
@@ -65,6 +66,8 @@ __all__ = [
     "dialect",
     "dimensions",
     "explain",
+    "false_colour",
+    "hdri",
     "metering",
     "parse",
     "pixel",

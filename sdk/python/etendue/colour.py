@@ -7,6 +7,8 @@ TEMPERATURE_OUT_OF_RANGE, DUV_OUT_OF_RANGE, NOT_NEAR_LOCUS.
 
 from typing import Any, NamedTuple, overload
 
+from numpy.typing import NDArray
+
 from . import _core
 from ._arrays import Array, Number, elementwise, rowwise
 
@@ -23,6 +25,13 @@ class ColourTemperature(NamedTuple):
 
     kelvin: float
     duv: float
+
+
+class ClampedTemperature(NamedTuple):
+    """A temperature in K, and whether it was another one; arrays of both for an array."""
+
+    kelvin: Any
+    clamped: Any
 
 
 class Rgb(NamedTuple):
@@ -94,6 +103,20 @@ def to_colour_temperature(xy: Any) -> Any:
     Errors: NOT_NEAR_LOCUS beyond |Duv| = .05, TEMPERATURE_OUT_OF_RANGE beyond 500 K and 100000 K.
     """
     return rowwise(_core.to_colour_temperature, 2, "xy", xy, ColourTemperature)
+
+
+def clamped_temperature(kelvin: float | NDArray[Any]) -> ClampedTemperature:
+    """The nearest temperature of 100 K to 100000 K, for those who ask for it: everything else here refuses what is beyond.
+
+    >>> clamped_temperature(250000.0)
+    ClampedTemperature(kelvin=100000.0, clamped=True)
+
+    What is no temperature, 0 K, a negative one or NaN, is an Error still: TEMPERATURE_OUT_OF_RANGE.
+    """
+    found = elementwise(_core.clamped_temperature, kelvin=kelvin)
+    if isinstance(found, tuple):
+        return ClampedTemperature(found[0], bool(found[1]))
+    return ClampedTemperature(found[..., 0], found[..., 1] != 0)
 
 
 def mired_of(kelvin: Number) -> Number:

@@ -9,7 +9,8 @@ from .camera import CameraSettings, ev100, ev_s
 from .errors import Error
 from .quantity import Quantity, quantity, si_of, unit_named
 from .shapes import Length, Shape
-from .text import WrittenQuantity, parse
+from .spectrum import efficacy_policy
+from .text import parse
 
 
 class _Given(NamedTuple):
@@ -23,6 +24,15 @@ class _Given(NamedTuple):
 
 def _given(value: Any, unit: str | None) -> _Given:
     if isinstance(value, str) and unit is None:
+        kind, *numbers = _core.parse(value)
+        if kind == "quantity":  # in the unit that was written, so that nothing is rounded on the way to SI
+            _, _, distance_m, lm_w, number, named = numbers
+            return _Given(
+                number,
+                named,
+                None if distance_m is None else Quantity(distance_m, "length"),
+                None if lm_w is None else Quantity(lm_w, "luminous efficacy"),
+            )
         written = parse(value)
         if isinstance(written, CameraSettings):
             written = (
@@ -30,8 +40,6 @@ def _given(value: Any, unit: str | None) -> _Given:
                 if written.iso is None
                 else Quantity(ev100(written), "exposure value at ISO 100")
             )
-        if isinstance(written, WrittenQuantity):
-            return _Given(written.quantity.si, unit_named(written.quantity.unit, "value"), written.distance, written.efficacy)
         if not isinstance(written, Quantity):
             raise Error(
                 "DIMENSION_MISMATCH",
@@ -44,6 +52,13 @@ def _given(value: Any, unit: str | None) -> _Given:
         q = quantity(value, unit)
         return _Given(q.si, unit_named(q.unit, "unit"), None, None)
     return _Given(value, unit_named(unit, "unit"), None, None)
+
+
+def lm_w_of(efficacy: str | Quantity) -> float:
+    """Lumens per watt of what efficacy says: a quantity, or a policy as text."""
+    if isinstance(efficacy, str):
+        return efficacy_policy(efficacy).lm_w
+    return si_of(efficacy, "luminous efficacy", "efficacy")
 
 
 def _setup(
@@ -68,7 +83,7 @@ def _setup(
         spot_falloff,
         None if measured is None else si_of(measured, "length", "given_distance"),
         None if wanted is None else si_of(wanted, "length", "distance"),
-        None if lamp is None else si_of(lamp, "luminous efficacy", "efficacy"),
+        None if lamp is None else lm_w_of(lamp),
         meter_k,
         meter_c,
     )
@@ -134,7 +149,8 @@ def convert(
     spot_flux: "falloff" (the integral over what is rendered), "cone", "frostbite_pi", "isotropic".
     spot_falloff: "squared" (Frostbite, glTF), "smoothstep" (pbrt), "hard".
     distance: of an illuminance, given or wanted, from the light's origin along its axis; given_distance where both are illuminances.
-    efficacy: in lm/W, between watts and lumens. Electrical watts: the lamp's; radiant watts: that of its spectrum.
+    efficacy: between watts and lumens: "15 lm/W", a preset's name such as "CIE D65", "2856 K" (etendue.spectrum.efficacy_policy).
+    Electrical watts: the lamp's; radiant watts: that of its spectrum.
     meter_k, meter_c: what ties EV to luminance, 2^EV K / 100, and to illuminance, 2^EV C / 100.
 
     What is needed and was not said is an Error that names it: SHAPE_MISSING, SIZE_MISSING, DISTANCE_MISSING, EFFICACY_MISSING,
@@ -144,7 +160,7 @@ def convert(
     setup = _setup(given, shape, two_sided, spot_flux, spot_falloff, distance, given_distance, efficacy, meter_k, meter_c)
     wanted = unit_named(to, "to")
     conversion = _core.conversion(given.unit, wanted, setup)
-    return elementwise(_core.converted, conversion, given.unit, wanted, value=given.numbers)
+    return elementwise(_core.converted, conversion, value=given.numbers)
 
 
 class Symbol(NamedTuple):
@@ -194,4 +210,7 @@ def explain(
         given = _given(value, unit)
         setup = _setup(given, shape, two_sided, spot_flux, spot_falloff, distance, given_distance, efficacy, meter_k, meter_c)
         formula, symbols, notes, text = _core.explain_conversion(given.numbers, given.unit, unit_named(to, "to"), setup)
+        if isinstance(efficacy, str) and (policy := efficacy_policy(efficacy)).source and any(name == "efficacy" for name, _, _ in symbols):
+            notes = [*notes, f"efficacy of {policy.name}: {policy.lm_w} lm/W; {policy.source}"]
+            text += f"\n  {notes[-1]}"
     return Explanation(formula, tuple(Symbol(*s) for s in symbols), tuple(notes), text)

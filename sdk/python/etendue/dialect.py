@@ -12,10 +12,12 @@ METRES_PER_UNIT_MISSING, EFFICACY_MISSING, SIZE_MISSING, NUMBER_INVALID, COLOUR_
 """
 
 import dataclasses
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 from . import _core
 from .colour import Rgb
+from .conversion import lm_w_of
 from .quantity import Quantity, si_of
 from .shapes import Shape, shape_of_numbers
 
@@ -42,7 +44,7 @@ class Form:
 
     unit: one of units_of(); "" is the first of these. exposure_stop and normalize are USD's. reflector: HDRP's,
     and Filament's FOCUSED_SPOT.
-    metres_per_unit: required of USD, but for distant and dome lights. efficacy: in lm/W, required of Blender's watts.
+    metres_per_unit: required of USD, but for distant and dome lights. efficacy: required of Blender's watts, as convert() takes it.
     """
 
     unit: str = ""
@@ -53,7 +55,7 @@ class Form:
     efficacy: str | Quantity | None = None
 
     def _parts(self) -> Any:
-        efficacy = None if self.efficacy is None else si_of(self.efficacy, "luminous efficacy", "efficacy")
+        efficacy = None if self.efficacy is None else lm_w_of(self.efficacy)
         return self.unit, self.exposure_stop, self.normalize, self.reflector, self.metres_per_unit, efficacy
 
 
@@ -122,6 +124,29 @@ def translate(light: StatedLight, from_dialect: str, to_dialect: str, form: Form
     written = Form(unit, stop, normalize, reflector, metres_per_unit, efficacy)
     stated = StatedLight(shape_of_numbers(*numbers), amount, written, colour, two_sided, end)
     return stated, [Loss(*loss) for loss in losses]
+
+
+class Suspicion(NamedTuple):
+    """Why lights seem to be unitless, and what to do about it."""
+
+    text: str
+    hint: str
+
+
+def suspected_compat_lights(generator: str, lights: Iterable[tuple[Shape, float]]) -> Suspicion | None:
+    """Whether Blender's exporter seems to have written a glTF file's lights without the 683 lm/W that the format asks for.
+
+    generator: the file's asset.generator. lights: its points and spots in cd, its suns (Distant) in lx.
+
+        >>> suspected_compat_lights("Khronos glTF Blender I/O v4.2", [(Point(), 54.35)]) is None
+        False
+        >>> suspected_compat_lights("Khronos glTF Blender I/O v4.2", [(Point(), 5435.0)]) is None
+        True
+
+    Small lamps alone can look the same.
+    """
+    found = _core.suspected_compat_lights(generator, [(shape._numbers(), float(amount)) for shape, amount in lights])
+    return None if found is None else Suspicion(*found)
 
 
 def interoperability_spread(flux: str | Quantity, inner: str | Quantity, outer: str | Quantity) -> list[Spread]:

@@ -111,6 +111,31 @@ def efficacy_preset(name: str) -> EfficacyPreset:
     return EfficacyPreset(*_core.efficacy_preset(name))
 
 
+class EfficacyPolicy(NamedTuple):
+    """How watts become lumens: lumens per watt, what that was called, and its source ("" of a plain number)."""
+
+    lm_w: float
+    name: str
+    source: str
+
+
+def efficacy_policy(text: str) -> EfficacyPolicy:
+    """What convert()'s efficacy may be as text.
+
+        >>> efficacy_policy("15 lm/W").lm_w
+        15.0
+        >>> efficacy_policy("CIE D65").lm_w
+        204.8
+        >>> round(efficacy_policy("2856 K").lm_w, 2)
+        16.45
+
+    A number; the name of a preset that is one number; a Planckian radiator by its temperature, all that it radiates or, "2856 K visible",
+    what of it lies within 380 nm to 780 nm. Errors: EFFICACY_AMBIGUOUS (a preset that is a range), PRESET_UNKNOWN, UNIT_UNKNOWN,
+    DIMENSION_MISMATCH, TEMPERATURE_OUT_OF_RANGE.
+    """
+    return EfficacyPolicy(*_core.efficacy_policy(text))
+
+
 def efficacy_presets() -> list[EfficacyPreset]:
     """All of them; a name may stand for both kinds of watts."""
     return [EfficacyPreset(*row) for row in _core.efficacy_presets()]

@@ -1,10 +1,12 @@
 """What people write about lights, cameras and colours, in one line."""
 
+import warnings
 from typing import NamedTuple
 
 from . import _core
 from .camera import CameraSettings
 from .colour import Chromaticity, ColourTemperature, Rgb
+from .errors import ClampedWarning
 from .quantity import Quantity, of_number
 
 
@@ -19,7 +21,7 @@ class WrittenQuantity(NamedTuple):
 Written = Quantity | WrittenQuantity | CameraSettings | ColourTemperature | Chromaticity | Rgb
 
 
-def parse(text: str) -> Written:
+def parse(text: str, *, clamp: bool = False) -> Written:
     """Quantities, cameras and colours as people write them.
 
         >>> parse("1200 lm")
@@ -35,10 +37,17 @@ def parse(text: str) -> Written:
 
     Also "T2.8 180 deg @ 24 fps ND 0.9", "3200 K + 137 mired", "60 W at 15 lm/W", "#ffb46b" (sRGB, decoded), "rgb 1 .5 .2" (linear Rec.709).
 
+    clamp: a temperature beyond 100 K to 100000 K counts as the nearer of the two, with a ClampedWarning, and is no Error.
+
     Errors: NUMBER_INVALID, UNIT_MISSING, UNIT_UNKNOWN (with the nearest spellings), DIMENSION_MISMATCH, CAMERA_SETTING_INVALID,
     CAMERA_SETTING_AMBIGUOUS, TEMPERATURE_OUT_OF_RANGE, COLOUR_INVALID, TEXT_UNEXPECTED.
     """
-    kind, *numbers = _core.parse(text)
+    if clamp:
+        (kind, *numbers), told = _core.parse_clamping(text)
+        for warning in told:
+            warnings.warn(warning, ClampedWarning, stacklevel=2)
+    else:
+        kind, *numbers = _core.parse(text)
     if kind == "camera":
         return CameraSettings(*numbers[0])
     if kind == "temperature":
@@ -47,7 +56,7 @@ def parse(text: str) -> Written:
         return Chromaticity(*numbers)
     if kind == "rgb":
         return Rgb(*numbers)
-    number, si, distance_m, efficacy_lm_w = numbers
+    number, si, distance_m, efficacy_lm_w, _, _ = numbers
     if distance_m is None and efficacy_lm_w is None:
         return of_number(si, number)
     return WrittenQuantity(
