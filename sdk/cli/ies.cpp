@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "photometric_convert.h"
-#include "photometric_svg.h"
+#include "photometric_diagrams.h"
 #include "verbs.h"
 
 namespace etendue::cli {
@@ -23,7 +23,7 @@ struct Options {
   std::size_t lamp_set = 1;
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   bool csv = false, check = false, strict = false;
-  std::string convert, svg;
+  std::string convert, svg, diagram = "polar", plane = "3 m";
   double fold = -1;
   ConvertChoice conversion;
 };
@@ -136,11 +136,25 @@ int say_conversion(Session& session, Json& json, const PhotometricReading& readi
     list.push_back({{"what", loss.what}, {"effect", loss.effect}});
   }
   json["converted"] = {{"out", options.convert}, {"losses", list}};
+  if (!choice.resample_deg.empty()) json["converted"]["resample_error_cd"] = converted->resample_error_cd;
+  if (choice.fold) json["converted"]["fold_error_cd"] = converted->fold_error_cd;
   return exit_done;
 }
 
+std::string title_of(const PhotometricReading& reading) {
+  const std::string luminaire = keyword_of(reading.distribution, "LUMINAIRE");
+  return luminaire.empty() ? fs::path(reading.file).filename().string() : luminaire;
+}
+
+std::string drawn(const std::vector<DrawnWeb>& webs, const std::string& title, const Options& options, double plane_m) {
+  if (options.diagram == "cartesian") return cartesian_svg(webs, title);
+  if (options.diagram == "web") return web_svg(*webs[0].web, title);
+  if (options.diagram == "isolux") return isolux_svg(webs, title, plane_m, options.units == "imperial" ? Units::imperial : Units::metric);
+  return polar_svg(webs, title);
+}
+
 // One file: FILE.svg; several: a folder with a picture of each, by its name.
-Status draw(const PhotometricReading& reading, const Options& options, bool several) {
+Status draw(const PhotometricReading& reading, const Options& options, double plane_m, bool several) {
   const fs::path name = fs::path(reading.file).filename();
   fs::path out = options.svg;
   if (several) {
@@ -148,8 +162,7 @@ Status draw(const PhotometricReading& reading, const Options& options, bool seve
     fs::create_directories(out, code);
     out /= name.string() + ".svg";
   }
-  const std::string luminaire = keyword_of(reading.distribution, "LUMINAIRE");
-  const std::string svg = polar_svg(reading.web, luminaire.empty() ? name.string() : luminaire);
+  const std::string svg = drawn({{&reading.web, name.string()}}, title_of(reading), options, plane_m);
   return write_file(out, std::as_bytes(std::span(svg)));
 }
 
@@ -177,6 +190,9 @@ int run_ies(const Common& common, const Options& options) {
     if (!(*distance > 0)) return session.fail({"USAGE", "--cone: expected distances above 0", {}, "as in --cone 1m,2m,5m", {}});
     distances.push_back(*distance);
   }
+  const Result<double> plane_m = parse_si(options.plane, Dimension::length);
+  if (!plane_m) return session.fail({"USAGE", "--plane: " + plane_m.error().text, {}, "as in --plane \"3 m\"", {}});
+  if (!(*plane_m > 0)) return session.fail({"USAGE", "--plane: expected a distance above 0", {}, "as in --plane \"3 m\"", {}});
   const Result<std::vector<std::string>> files = files_of(options.files);
   if (!files) return session.fail(files.error());
   if (!options.convert.empty() && files->size() != 1)
@@ -206,7 +222,7 @@ int run_ies(const Common& common, const Options& options) {
     say_directions(session, json, reading.web, directions);
     say_cones(session, json, reading.web, distances, units);
     if (!options.svg.empty()) {
-      if (const Status drawn = draw(reading, options, readings.size() > 1); !drawn) return session.fail(drawn.error());
+      if (const Status drawn = draw(reading, options, *plane_m, readings.size() > 1); !drawn) return session.fail(drawn.error());
     }
     if (!options.convert.empty()) status = say_conversion(session, json, reading, options);
     session.result.push_back(std::move(json));
@@ -236,20 +252,33 @@ void add_ies(CLI::App& app, const Common& common, Run& run) {
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
   verb->add_option("--convert", options->convert, "Write this .ies or .ldt, with a report of what is lost");
-  verb->add_option("--svg", options->svg,
-                   "Write the polar diagram to this file; of several files into this folder. What is there is replaced");
+  verb->add_option("--svg", options->svg, "Draw a diagram to this file; of several files into this folder. What is there is replaced");
+  verb->add_option("--diagram", options->diagram,
+                   "What --svg draws: polar, cartesian, web (the distribution as a body) or isolux (on a plane that faces the light)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"polar", "cartesian", "web", "isolux"}));
+  verb->add_option("--plane", options->plane, "Distance of the isolux plane from the light")->capture_default_str();
   verb->add_option("--year", options->conversion.year, "Version of the .ies that is written")
       ->capture_default_str()
       ->check(CLI::IsMember({"1986", "1991", "1995", "2002", "2019"}));
   verb->add_option("--flux", options->conversion.flux, "Scale what is written to emit this: \"1500 lm\"");
   verb->add_option("--fold", options->fold, "Fold mirrored planes that differ by at most this share of the peak: 0 is exact")
       ->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--turn", options->conversion.turn_deg, "Add this to every C angle of what is written, degrees")
+      ->check(CLI::Range(-360.0, 360.0));
+  verb->add_option("--resample", options->conversion.resample_deg,
+                   "Steps of what is written, degrees: of the vertical angles, and of the horizontal ones if they differ: 5 or 5,15")
+      ->delimiter(',')
+      ->expected(1, 2)
+      ->check(CLI::Range(0.1, 90.0));
   verb->add_flag("--same-planes", options->conversion.same_planes, "Across formats, keep the numbers of the C planes");
   verb->add_flag("--force", options->conversion.force, "Replace what is there");
   verb->add_option("--jobs", options->jobs, "Files at a time")->check(CLI::Range(1, 256));
   verb->footer(
       "\nExamples:\n  etendue ies lamp.ies\n  etendue ies library/ --csv > library.csv\n  etendue ies lamp.ldt --at 90,30 --cone 1m,2m,5m\n"
-      "  etendue ies library/ --check\n  etendue ies lamp.ies --convert lamp.ldt --fold 0.001\n  etendue ies lamp.ies --svg lamp.svg");
+      "  etendue ies library/ --check\n  etendue ies lamp.ies --convert lamp.ldt --fold 0.001\n  etendue ies lamp.ies --convert "
+      "smaller.ies --resample 5,15 --turn 30\n  etendue ies lamp.ies --svg lamp.svg\n"
+      "  etendue ies street.ldt --svg street.svg --diagram isolux --plane \"8 m\"");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_ies(common, *options); }; });
 }
 

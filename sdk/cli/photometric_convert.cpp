@@ -28,12 +28,27 @@ Result<ConvertedPhotometry> convert_photometric(const PhotometricReading& readin
     if (!scaled) return scaled.error();
     d = std::move(*scaled);
   }
+  if (choice.turn_deg != 0) {
+    Result<IntensityGrid> other = turned(d.grid, choice.turn_deg);
+    if (!other) return other.error();
+    d = with_grid(std::move(d), std::move(*other));
+    done.losses.add("luminous opening", "keeps its place: the light alone is turned");
+  }
+  if (!choice.resample_deg.empty()) {
+    Result<ResampledGrid> other =
+        resampled(d.grid, vertical_steps(d.grid, choice.resample_deg.front()), horizontal_steps(d.grid, choice.resample_deg.back()));
+    if (!other) return other.error();
+    done.resample_error_cd = other->error * candelas_per_value(d);
+    if (other->error > 0)
+      done.losses.add("intensities between the new angles", fmt::format("differ by up to {:.4g} cd", done.resample_error_cd));
+    d = with_grid(std::move(d), std::move(other->grid));
+  }
   if (choice.fold) {
     FoldedGrid smaller = folded(d.grid, *choice.fold);
     done.fold_error_cd = smaller.error * candelas_per_value(d);
     if (smaller.error > 0)
       done.losses.add("planes that mirror each other", fmt::format("the first is kept: up to {:.4g} cd anywhere", done.fold_error_cd));
-    d.grid = std::move(smaller.grid);
+    if (smaller.grid.symmetry != d.grid.symmetry) d = with_grid(std::move(d), std::move(smaller.grid));
   }
   const Result<IesVersion> version = version_of(choice.year);
   if (!version) return version.error();

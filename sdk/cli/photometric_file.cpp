@@ -33,6 +33,43 @@ void put_spread(Json& json, const char* key, const IntensityWeb& web, double sha
   if (!angles.empty()) json[key] = angles;
 }
 
+void put_output(Json& json, const LightOutput& out) {
+  put(json, "efficacy_lm_W", out.efficacy_lm_w);
+  put(json, "light_output_ratio", out.lor);
+  put(json, "downward_light_output_ratio", out.dlor);
+  put(json, "upward_light_output_ratio", out.ulor);
+  json["downward_flux_share"] = out.downward_share;
+}
+
+void put_cie_cones(Json& json, const IntensityWeb& web) {
+  const std::array<double, 4> flux = cie_cone_flux_lm(web);
+  Json cones = Json::object();
+  for (std::size_t i = 0; i < flux.size(); ++i) cones[fmt::format("0-{:.4g}", cie_cone_deg[i])] = flux[i];
+  json["cie_zonal_lm"] = cones;
+}
+
+// Of floodlights, whose webs are of type A or B: H is the plane of C90, V that of C0.
+void put_nema(Json& json, const IntensityWeb& web) {
+  if (web.type() == WebType::c) return;
+  Json nema = Json::object();
+  for (const auto& [name, plane] : {std::pair{"h", PlanePair::c90_270}, std::pair{"v", PlanePair::c0_180}}) {
+    const std::optional<Spread> field = spread_about_peak(web, plane, field_share);
+    const std::optional<int> type = field ? nema_type(field->full_deg) : std::nullopt;
+    if (type) nema[name] = *type;
+  }
+  if (!nema.empty()) json["nema_type"] = nema;
+}
+
+// At the angles of glare tables.
+void put_luminance(Json& json, const IntensityDistribution& d, const IntensityWeb& web) {
+  Json rows = Json::array();
+  for (const double gamma : {65.0, 75.0, 85.0})
+    for (const double c : {0.0, 90.0, 180.0, 270.0})
+      if (const std::optional<double> luminance = opening_luminance(d, web, direction_of(WebType::c, {gamma, c})))
+        rows.push_back({{"c_deg", c}, {"gamma_deg", gamma}, {"luminance_cd_m2", *luminance}});
+  if (!rows.empty()) json["luminance"] = rows;
+}
+
 Json angles_json(const std::vector<double>& angles) {
   Json list = Json::array();
   for (const double angle : angles) list.push_back(angle < 0 ? angle + 360 : angle);
@@ -145,16 +182,18 @@ Json to_json(const PhotometricReading& r) {
   const std::optional<double> rated = rated_flux_lm(d);
   put(json, "rated_lm", rated);
   json["watts"] = input_watts(d);
-  if (input_watts(d) > 0) json["efficacy_lm_W"] = web.flux_lm() / input_watts(d);
-  if (rated && *rated > 0) json["light_output_ratio"] = web.flux_lm() / *rated;
+  put_output(json, light_output(d, web));
+  put_cie_cones(json, web);
   put_spread(json, "beam_deg", web, beam_share, spread_about_peak);
   put_spread(json, "field_deg", web, field_share, spread_about_peak);
   put_spread(json, "beam_cie_deg", web, beam_share, spread_about_axis);
   put_spread(json, "field_cie_deg", web, field_share, spread_about_axis);
+  put_nema(json, web);
   put_tilt(json, d);
   const LuminousOpening opening = opening_of(d);
   json["opening"] = {
       {"shape", name_of(opening.shape)}, {"width_m", opening.width_m}, {"length_m", opening.length_m}, {"height_m", opening.height_m}};
+  put_luminance(json, d, web);
   if (ies != nullptr) {
     put_keywords(json, *ies);
   } else {

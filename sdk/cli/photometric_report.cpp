@@ -58,6 +58,33 @@ std::string spread_text(const IntensityWeb& web, double share, const auto& sprea
   return text + " deg";
 }
 
+std::string output_text(const LightOutput& out) {
+  std::string text = fmt::format("{:.1f} % downwards", 100 * out.downward_share);
+  if (out.lor) text += fmt::format("; of the lamps {:.1f} %: {:.1f} % down, {:.1f} % up", 100 * *out.lor, 100 * *out.dlor, 100 * *out.ulor);
+  return text;
+}
+
+// H x V of floodlights, whose webs are of type A or B.
+std::string nema_text(const IntensityWeb& web) {
+  if (web.type() == WebType::c) return "";
+  const auto h = spread_about_peak(web, PlanePair::c90_270, field_share), v = spread_about_peak(web, PlanePair::c0_180, field_share);
+  const auto type = [](const std::optional<Spread>& field) {
+    const std::optional<int> found = field ? nema_type(field->full_deg) : std::nullopt;
+    return found ? fmt::format("{}", *found) : std::string("-");
+  };
+  return fmt::format("type {} x {} (H x V)", type(h), type(v));
+}
+
+std::string luminance_text(const IntensityDistribution& d, const IntensityWeb& web) {
+  std::string text;
+  for (const double gamma : {65.0, 75.0, 85.0}) {
+    const auto at_0 = opening_luminance(d, web, direction_of(WebType::c, {gamma, 0}));
+    const auto at_90 = opening_luminance(d, web, direction_of(WebType::c, {gamma, 90}));
+    if (at_0 && at_90) text += fmt::format("{}{} deg {:.4g} x {:.4g}", text.empty() ? "" : ", ", gamma, *at_0, *at_90);
+  }
+  return text.empty() ? text : text + " cd/m2 (C0 x C90)";
+}
+
 }  // namespace
 
 // The nadir points down. C0 to the right with C180, drawn through; C90 with C270 dotted.
@@ -119,9 +146,12 @@ std::string report_of(const PhotometricReading& r, Units units) {
     zones += fmt::format("{}{}-{} deg {:.5g} lm ({:.1f} %)", zones.empty() ? "" : ", ", from, to, lm, flux > 0 ? 100 * lm / flux : 0);
   }
   row("zones", zones);
+  row("output", output_text(light_output(d, web)));
+  row("NEMA", nema_text(web));
   const LuminousOpening opening = opening_of(d);
   row("opening", fmt::format("{} {} wide, {} long, {} high", name_of(opening.shape), length_text(opening.width_m, units),
                              length_text(opening.length_m, units), length_text(opening.height_m, units)));
+  row("luminance", luminance_text(d, web));
   if (ies != nullptr && ies->tilt)
     row("tilt", fmt::format("{}, not applied", ies->tilt->resolved ? fmt::format("{} angles", ies->tilt->angles_deg.size())
                                                                    : "in " + ies->tilt->file + ", which was not read"));

@@ -3,6 +3,7 @@
 
 #include "etendue/intensity_web.h"
 
+#include <array>
 #include <optional>
 
 namespace etendue {
@@ -29,6 +30,33 @@ struct Peak {
   WebAngles angles;  // of the web's own type
 };
 Peak peak_of(const IntensityWeb& web);
+
+// Where the light goes, and how much of the lamps' light it is (EN 13032-2: LOR, DLOR, ULOR). EULUMDAT states 100 `lor` and 100
+// `downward_share`.
+struct LightOutput {
+  double flux_lm = 0, downward_lm = 0, upward_lm = 0;
+  double downward_share = 0;              // DFF: of the flux; 0 where there is none
+  std::optional<double> lor, dlor, ulor;  // of the flux that the file states for its lamps, where it states one above 0
+  std::optional<double> efficacy_lm_w;    // of the luminaire, where the input power is stated
+};
+LightOutput light_output(const IntensityDistribution& distribution, const IntensityWeb& web);
+
+// Cones about the nadir with a quarter, a half, three quarters and the whole of the lower hemisphere's solid angle: 1 - cos gamma = 1/4,
+// 1/2, 3/4, 1 (CIE 52, CIE 190 section 4.2).
+inline constexpr std::array<double, 4> cie_cone_deg{41.409622109270856, 60, 75.522487814070076, 90};
+std::array<double, 4> cie_cone_flux_lm(const IntensityWeb& web);
+
+// NEMA's beam types of floodlights by the field angle: 1 from 10 to 18 degrees, 2 to 29, 3 to 46, 4 to 70, 5 to 100, 6 to 130, 7 beyond.
+// Nothing below 10 degrees.
+std::optional<int> nema_type(double field_deg);
+
+// Area of the luminous opening as seen from a direction in the web's frame, m2: flat ones from both sides, the bodies of the shape table by
+// their silhouette. EULUMDAT's length lies along C90-C270, its four heights belong to the sides that face C0, C90, C180 and C270. Nothing
+// for a point and for an unknown shape; 0 where a flat opening is seen from its edge.
+std::optional<double> projected_opening_m2(const IntensityDistribution& distribution, const IntensityWeb& web, const Vec3d& direction);
+
+// Mean luminance of the opening, cd/m2: intensity by projected area. Nothing where no area is seen.
+std::optional<double> opening_luminance(const IntensityDistribution& distribution, const IntensityWeb& web, const Vec3d& direction);
 
 // Plausibility: what is well-formed but hardly meant. NADIR_NOT_UNIQUE, PLANE_360_DIFFERS, EFFICIENCY_HIGH, EFFICIENCY_LOW, DARK,
 // WATTS_ZERO, LORL_MISMATCH, DFF_MISMATCH: all warnings but WATTS_ZERO and NADIR_NOT_UNIQUE, which are notes.

@@ -1,13 +1,14 @@
-// Distributions made from distributions: turned, unfolded, folded, scaled. What moves values moves them unchanged.
+// Distributions made from distributions: turned, unfolded, folded, resampled, scaled. What moves values moves them unchanged.
 #pragma once
 
 #include "etendue/photometry.h"
 
 namespace etendue {
 
-// The grid of type C with `turn_deg` (a multiple of 90) added to every C angle. Folded as far as the turn allows; planes are permuted,
-// never interpolated. Mirrored halves are kept from C0 (about_0_180) or from C-90 (about_90_270). Error: WEB_INVALID for types A and B.
-Result<IntensityGrid> turned(const IntensityGrid& grid, int turn_deg);
+// The grid of type C with `turn_deg` added to every C angle. By a multiple of 90 planes are permuted and stay folded as far as the turn
+// allows; mirrored halves are kept from C0 (about_0_180) or from C-90 (about_90_270). By another angle the web is unfolded and gets one
+// plane more, where the new C0 falls between two, which changes no intensity. Error: WEB_INVALID for types A and B.
+Result<IntensityGrid> turned(const IntensityGrid& grid, double turn_deg);
 
 // Every plane of the full circle from 0 to 360, both included, without a mirror. Error: WEB_INVALID for types A and B.
 Result<IntensityGrid> unfolded(const IntensityGrid& grid);
@@ -19,6 +20,24 @@ struct FoldedGrid {
   double error = 0;
 };
 FoldedGrid folded(const IntensityGrid& grid, double tolerance);
+
+// Onto other angles of the same kind, by the interpolation linear in both. The webs before and after are bilinear between their angles, so
+// their difference is bilinear in every cell of both together and largest at a corner of one: `error`, in values of the grid, is exact. The
+// angles must begin and end where the grid's do; a full circle ends one turn behind its first plane. A rotational grid keeps its plane.
+// Error: WEB_INVALID.
+struct ResampledGrid {
+  IntensityGrid grid;
+  double error = 0;
+};
+Result<ResampledGrid> resampled(const IntensityGrid& grid, const std::vector<double>& vertical_deg,
+                                const std::vector<double>& horizontal_deg);
+
+// As resampled() takes them: equal steps of at most `step_deg` over the range that the grid stores.
+std::vector<double> vertical_steps(const IntensityGrid& grid, double step_deg);
+std::vector<double> horizontal_steps(const IntensityGrid& grid, double step_deg);
+
+// The distribution with another grid; what its record says of the old one (EULUMDAT's listed planes and steps) follows.
+IntensityDistribution with_grid(IntensityDistribution distribution, IntensityGrid grid);
 
 // Scaled to emit `flux_lm` under the interpolation linear in angle: the multiplier of an IES record, the flux of EULUMDAT's lamp set.
 // Error: WEB_INVALID, also where nothing is emitted.

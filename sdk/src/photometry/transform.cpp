@@ -101,15 +101,33 @@ double mirror_error(const IntensityGrid& grid, const std::vector<Plane>& planes,
   return worst;
 }
 
+// All planes moved; the one at 0, where the circle is cut, lies between the last and the first.
+IntensityGrid turned_between_planes(const IntensityGrid& grid, double turn_deg) {
+  IntensityGrid result = collected(grid, turn_deg, WebSymmetry::none);
+  if (result.horizontal_deg.front() > 0) {
+    const double before = result.horizontal_deg.back() - 360, after = result.horizontal_deg.front(), t = before / (before - after);
+    const auto last = plane(result, result.horizontal_deg.size() - 1), first = plane(result, 0);
+    std::vector<double> cut;
+    for (std::size_t i = 0; i < first.size(); ++i) cut.push_back(last[i] + t * (first[i] - last[i]));
+    result.horizontal_deg.insert(result.horizontal_deg.begin(), 0);
+    result.values.insert(result.values.begin(), cut.begin(), cut.end());
+  }
+  close_circle(result);
+  return result;
+}
+
 }  // namespace
 
-Result<IntensityGrid> turned(const IntensityGrid& grid, int turn_deg) {
+Result<IntensityGrid> turned(const IntensityGrid& grid, double turn_deg) {
   if (grid.type != WebType::c) return not_type_c();
+  if (!(std::abs(turn_deg) <= 1e6)) return Error{"WEB_INVALID", "expected a turn of at most 1e6 degrees", {}, {}, {}};
   if (grid.symmetry == WebSymmetry::rotational) return grid;
+  if (std::fmod(turn_deg, 90) != 0) return turned_between_planes(grid, turn_deg);
   WebSymmetry symmetry = grid.symmetry;
-  if (turn_deg % 180 != 0 && symmetry == WebSymmetry::about_0_180) {
+  const bool quarter = std::fmod(turn_deg, 180) != 0;
+  if (quarter && symmetry == WebSymmetry::about_0_180) {
     symmetry = WebSymmetry::about_90_270;
-  } else if (turn_deg % 180 != 0 && symmetry == WebSymmetry::about_90_270) {
+  } else if (quarter && symmetry == WebSymmetry::about_90_270) {
     symmetry = WebSymmetry::about_0_180;
   }
   IntensityGrid result = collected(grid, turn_deg, symmetry);
