@@ -114,7 +114,7 @@ void say_directions(const Session& session, Json& json, const IntensityWeb& web,
   for (const Direction& d : directions) {
     const double cd = web.at(d.c_deg, d.gamma_deg);
     json["at"].push_back({{"c_deg", d.c_deg}, {"gamma_deg", d.gamma_deg}, {"intensity_cd", cd}});
-    session.print(fmt::format("  C {:g}, gamma {:g} deg: {} cd", d.c_deg, d.gamma_deg, cd));
+    session.print(fmt::format("  C {:g}, gamma {:g} deg: {:.6g} cd", d.c_deg, d.gamma_deg, cd));
   }
 }
 
