@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdlib>
 
+#include "process.h"
+
 namespace etendue::cli {
 namespace {
 
@@ -78,8 +80,7 @@ Result<Mitsuba> locate_mitsuba(const std::string& hint) {
   std::vector<fs::path> search;
   if (const char* const named = std::getenv("ETENDUE_MITSUBA")) search.emplace_back(named);
   std::error_code ignored;
-  for (fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path(); folder != folder.parent_path();
-       folder = folder.parent_path()) {
+  for (fs::path folder = program_folder(); folder != folder.parent_path(); folder = folder.parent_path()) {
     search.push_back(folder / ".venv");
   }
   search.push_back(fs::current_path(ignored) / ".venv");

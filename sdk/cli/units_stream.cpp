@@ -10,9 +10,13 @@
 namespace etendue::cli {
 namespace {
 
-void append_number(std::string& out, double value) {
-  std::array<char, 32> text;
-  out.append(text.data(), fmt::format_to(text.data(), FMT_COMPILE("{}"), value));
+// What is always the same around a number, in one piece.
+void append_row(std::string& out, std::string_view before, double value, std::string_view behind) {
+  std::array<char, 96> row;
+  char* end = std::copy(before.begin(), before.end(), row.data());
+  end = fmt::format_to(end, FMT_COMPILE("{}"), value);
+  end = std::copy(behind.begin(), behind.end(), end);
+  out.append(row.data(), end);
 }
 
 // RFC 4180: in quotes where needed, a quote doubled.
@@ -104,7 +108,11 @@ std::string text_of(const Answer& a) {
 }  // namespace
 
 RowConverter::RowConverter(Target target, LightSetup setup, const UnitsOptions& options)
-    : target_(std::move(target)), setup_(std::move(setup)), options_(options) {}
+    : target_(std::move(target)),
+      setup_(std::move(setup)),
+      options_(options),
+      csv_tail_(',' + target_.name + ",\n"),
+      json_tail_(",\"unit\":\"" + target_.name + "\"}\n") {}
 
 const Conversion* RowConverter::conversion_from(std::string_view spelling) {
   if (spelling == last_spelling_) return last_;
@@ -140,10 +148,7 @@ void RowConverter::csv(std::string_view line, std::string& out) {
   std::string_view rest = line;
   if (take_decimal(rest, value) == nullptr && (rest = trimmed(rest), !rest.empty() && rest.front() == ',')) {
     if (const std::optional<double> result = quickly(value, trimmed(rest.substr(1)))) {
-      append_number(out, *result);
-      out += ',';
-      out += target_.name;
-      out += ",\n";
+      append_row(out, "", *result, csv_tail_);
       return;
     }
   }
@@ -170,11 +175,7 @@ void RowConverter::json(std::string_view line, std::string& out) {
   ++rows;
   if (const std::optional<Row> row = RowScanner(line).row()) {
     if (const std::optional<double> result = quickly(row->value, row->unit)) {
-      out += "{\"value\":";
-      append_number(out, *result);
-      out += ",\"unit\":\"";
-      out += target_.name;
-      out += "\"}\n";
+      append_row(out, "{\"value\":", *result, json_tail_);
       return;
     }
   }

@@ -30,6 +30,7 @@ class RowConverter {
   Target target_;
   LightSetup setup_;
   const UnitsOptions& options_;
+  std::string csv_tail_, json_tail_;                                   // behind a value: its unit, which has a few letters
   std::map<const NamedUnit*, std::optional<Conversion>> conversions_;  // made when a unit is first met; nothing where it has none
   std::string last_spelling_;
   const Conversion* last_ = nullptr;  // of that spelling

@@ -31,6 +31,12 @@ struct ProcessEnd {
 // that reads it learns of our death. Error: PROCESS_FAILED where it could not be started.
 Result<ProcessEnd> run_process(const ProcessCall& call);
 
+// The folder of the program that is running.
+std::filesystem::path program_folder();
+
+// Another program takes the place of this one, with the same arguments. Returns where it could not: PROCESS_FAILED.
+Error become_program(const std::filesystem::path& program, char** arguments);
+
 // A program by its bare name, in the folders of the PATH variable.
 std::optional<std::filesystem::path> find_program(const std::string& name);
 

@@ -140,6 +140,16 @@ Result<ProcessEnd> run_process(const ProcessCall& call) {
   return end;
 }
 
+std::filesystem::path program_folder() {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
+}
+
+Error become_program(const std::filesystem::path& program, char** arguments) {
+  ::execv(program.c_str(), arguments);
+  return failed(program.string(), "cannot start it", errno);
+}
+
 std::optional<std::filesystem::path> find_program(const std::string& name) {
   const char* variable = std::getenv("PATH");
   const std::string_view folders = variable ? variable : "";
