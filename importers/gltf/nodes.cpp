@@ -11,6 +11,7 @@ Nodes::Nodes(Asset& asset, Scene& scene)
     : asset_(asset),
       scene_(scene),
       tree_(asset),
+      poses_(asset, tree_),
       materials_(asset, scene),
       meshes_(asset, scene, has(asset.options().need, Need::meshes)) {}
 
@@ -135,7 +136,7 @@ void Nodes::add_mesh(int index, const Transform& to_world) {
   // Materials and their pictures are those that the scene's primitives use.
   const bool wanted = wants(Need::meshes) || wants(Need::lights) || wants(Need::materials) || wants(Need::images);
   if (!wanted || node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= model.meshes.size()) return;
-  const Pose pose = wants(Need::meshes) ? pose_of(asset_, tree_, index) : Pose{};
+  const Pose pose = wants(Need::meshes) ? poses_.of(index) : Pose{};
   // A skinned mesh stands where its joints are; its node's own transform does not move it (3.7.3.3).
   const Transform mesh_to_world = pose.joints.empty() ? to_world : Transform{};
   if (!(spread(mesh_to_world) > flat)) {

@@ -5,6 +5,7 @@
 #include "materials.h"
 #include "meshes.h"
 #include "node_tree.h"
+#include "pose.h"
 
 #include <set>
 #include <string>
@@ -33,6 +34,7 @@ class Nodes {
   Asset& asset_;
   Scene& scene_;
   NodeTree tree_;
+  Poses poses_;
   Materials materials_;
   Meshes meshes_;
   std::set<std::string> light_names_;

@@ -122,18 +122,7 @@ std::vector<Transform> joints_of(Asset& asset, NodeTree& tree, int skin) {
   return maps;
 }
 
-}  // namespace
-
-Pose pose_of(Asset& asset, NodeTree& tree, int index) {
-  const tinygltf::Node& node = asset.model().nodes[static_cast<std::size_t>(index)];
-  const tinygltf::Mesh& mesh = asset.model().meshes[static_cast<std::size_t>(node.mesh)];
-  Pose pose{index, node.weights.empty() ? mesh.weights : node.weights, {}};
-  if (std::all_of(pose.weights.begin(), pose.weights.end(), [](double weight) { return weight == 0; })) pose.weights.clear();
-  if (node.skin >= 0) pose.joints = joints_of(asset, tree, node.skin);
-  return pose;
-}
-
-Status apply_pose(const PrimitiveData& data, Asset& asset, const Pose& pose, Mesh& mesh) {
+Status apply_targets(const PrimitiveData& data, Asset& asset, const Pose& pose, Mesh& mesh) {
   for (std::size_t t = 0; t < std::min(pose.weights.size(), data.primitive().targets.size()); ++t) {
     const double weight = pose.weights[t];
     if (weight == 0) continue;
@@ -142,8 +131,11 @@ Status apply_pose(const PrimitiveData& data, Asset& asset, const Pose& pose, Mes
     if (added) added = add_target(data, asset, t, "TANGENT", weight, mesh.tangents);
     if (!added) return added;
   }
-  if (pose.joints.empty()) return Done{};
+  return Done{};
+}
 
+Status apply_joints(const PrimitiveData& data, Asset& asset, const Pose& pose, Mesh& mesh) {
+  if (pose.joints.empty()) return Done{};
   const auto influences = read_influences(data, asset, mesh.positions.size());
   if (!influences) return influences.error();
   if (influences->empty())
@@ -163,6 +155,34 @@ Status apply_pose(const PrimitiveData& data, Asset& asset, const Pose& pose, Mes
     return asset.failure("ACCESSOR_JOINTS_INDEX_OOB", fmt::format("expected joints below {}", pose.joints.size()),
                          data.pointer_of("JOINTS_0"));
   return Done{};
+}
+
+// Vectors of floats and nothing else.
+template <class Vector>
+bool all_finite(const std::vector<Vector>& vectors) {
+  return gltf::all_finite({reinterpret_cast<const float*>(vectors.data()), vectors.size() * sizeof(Vector) / sizeof(float)});
+}
+
+}  // namespace
+
+Pose Poses::of(int index) {
+  const tinygltf::Node& node = asset_.model().nodes[static_cast<std::size_t>(index)];
+  const tinygltf::Mesh& mesh = asset_.model().meshes[static_cast<std::size_t>(node.mesh)];
+  Pose pose{index, node.weights.empty() ? mesh.weights : node.weights, {}};
+  if (std::all_of(pose.weights.begin(), pose.weights.end(), [](double weight) { return weight == 0; })) pose.weights.clear();
+  if (node.skin < 0) return pose;
+  auto known = joints_.find(node.skin);
+  if (known == joints_.end()) known = joints_.emplace(node.skin, joints_of(asset_, tree_, node.skin)).first;
+  pose.joints = known->second;
+  return pose;
+}
+
+Status apply_pose(const PrimitiveData& data, Asset& asset, const Pose& pose, Mesh& mesh) {
+  Status done = apply_targets(data, asset, pose, mesh);
+  if (done) done = apply_joints(data, asset, pose, mesh);
+  if (done && !(all_finite(mesh.positions) && all_finite(mesh.normals) && all_finite(mesh.tangents)))
+    return asset.failure("POSE_INVALID", "weights or joints move vertices beyond what single precision can hold", data.pointer());
+  return done;
 }
 
 }  // namespace etendue::gltf

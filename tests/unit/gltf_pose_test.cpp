@@ -127,5 +127,38 @@ TEST(GltfPose, WhatIsWrongWithASkinIsAnError) {
   EXPECT_TRUE(says(imported->diagnostics, Severity::error, "INVALID_IBM_ACCESSOR_COUNT", "/skins/0/inverseBindMatrices"));
 }
 
+// A weight or a joint may be any number; what it makes of the vertices is checked.
+TEST(GltfPose, WhatLeavesSinglePrecisionIsAnError) {
+  const Folder folder;
+  GltfBuilder weighted = with_targets();
+  weighted.json["meshes"][0]["weights"] = {1e39, 0};
+  GltfBuilder far = skinned();
+  far.json["nodes"][1]["translation"] = {1e300, 0, 0};
+  for (const GltfBuilder& gltf : {weighted, far}) {
+    const auto imported = read_gltf(gltf, folder);
+    ASSERT_TRUE(imported.ok());
+    EXPECT_TRUE(says(imported->diagnostics, Severity::error, "POSE_INVALID", "/meshes/0/primitives/0"));
+    EXPECT_TRUE(imported->scene.meshes.empty());
+  }
+}
+
+// 200 nodes with one skin, whose matrices are many more than its joints: they are read once, or this limit would be met.
+TEST(GltfPose, NodesShareWhatASkinIs) {
+  GltfBuilder gltf = skinned();
+  gltf.json["skins"][0]["inverseBindMatrices"] = gltf.accessor({{"componentType", 5126}, {"count", 100000}, {"type", "MAT4"}});
+  const Json node = gltf.json["nodes"][0];
+  for (int i = 0; i < 200; ++i) {
+    gltf.json["scenes"][0]["nodes"].push_back(gltf.json["nodes"].size());
+    gltf.json["nodes"].push_back(node);
+  }
+  ImportOptions options;
+  options.max_memory = 16'000'000;  // 6.4 MB for the matrices
+  const Folder folder;
+  const auto imported = read_gltf(gltf, folder, options);
+  ASSERT_TRUE(imported.ok());
+  EXPECT_FALSE(says(imported->diagnostics, Severity::error, "LIMIT_EXCEEDED", "/accessors/4")) << all_text(imported->diagnostics);
+  EXPECT_EQ(imported->scene.objects.size(), 201u) << all_text(imported->diagnostics);
+}
+
 }  // namespace
 }  // namespace etendue::test
