@@ -112,17 +112,15 @@ bool is_camera_unit(std::string_view word, const Cursor& behind) {
 
 Result<Written> take_numbered(Cursor cursor, Diagnostics* clamped) {
   const Cursor start = cursor;
+  const Result<double> number = cursor.number();
+  if (!number) return number.error();
   Cursor ahead = cursor;
-  double number = 0;
-  std::string_view rest = ahead.rest();
-  if (take_number(rest, number) == nullptr) {
-    ahead.skip(ahead.rest().size() - rest.size());
-    if (ahead.next() == '/') return written(take_camera(cursor));
-    const std::string_view word = ahead.word();
-    ahead.skip(word.size());
-    if (is_camera_unit(word, ahead)) return written(take_camera(cursor));
-  }
-  const Result<Counted> quantity = take_quantity(cursor);
+  ahead.skip_blanks();
+  if (ahead.next() == '/') return written(take_camera(start));
+  const std::string_view word = ahead.word();
+  ahead.skip(word.size());
+  if (is_camera_unit(word, ahead)) return written(take_camera(start));
+  const Result<Counted> quantity = take_unit(*number, cursor);
   if (!quantity) return quantity.error();
   const Dimension dimension = quantity->unit->dimension;
   WrittenQuantity said{quantity->number, *quantity->unit};

@@ -44,12 +44,18 @@ class Cursor {
     return value;
   }
   // Up to a blank, an @ or the end.
-  std::string_view word() const { return rest_.substr(0, std::min(rest_.find_first_of(" \t@"), rest_.size())); }
+  std::string_view word() const {
+    std::size_t end = 0;
+    while (end < rest_.size() && rest_[end] != ' ' && rest_[end] != '\t' && rest_[end] != '@') ++end;
+    return rest_.substr(0, end);
+  }
   void skip(std::size_t count) {
     rest_.remove_prefix(count);
     skip_blanks();
   }
-  void skip_blanks() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size())); }
+  void skip_blanks() {
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t')) rest_.remove_prefix(1);
+  }
 
   Error error(const char* code, std::string text, std::string hint = {}) const {
     return located({code, std::move(text), {}, std::move(hint), {}});
@@ -72,9 +78,7 @@ struct Counted {
   const NamedUnit* unit;
   double si() const { return unit->to_si(number); }
 };
-inline Result<Counted> take_quantity(Cursor& cursor) {
-  const Result<double> number = cursor.number();
-  if (!number) return number.error();
+inline Result<Counted> take_unit(double number, Cursor& cursor) {
   cursor.skip_blanks();
   if (cursor.is_number_start() && cursor.next() != '+' && cursor.next() != '-')
     return cursor.error("NUMBER_INVALID", "digits are not grouped, and the decimal mark is a point");
@@ -83,11 +87,15 @@ inline Result<Counted> take_quantity(Cursor& cursor) {
     return cursor.error("UNIT_MISSING", "expected a unit behind the number, found none", "write for example \"1500 lm\"");
   const NamedUnit* const unit = find_unit(word);
   if (unit == nullptr) return cursor.located(unit_named(word).error());
-  const Counted counted{*number, unit};
+  const Counted counted{number, unit};
   if (!std::isfinite(counted.si()) && !unit->reciprocal)
-    return cursor.error("NUMBER_INVALID", fmt::format("{} {} is beyond the range of a double", *number, word));
+    return cursor.error("NUMBER_INVALID", fmt::format("{} {} is beyond the range of a double", number, word));
   cursor.skip(word.size());
   return counted;
+}
+inline Result<Counted> take_quantity(Cursor& cursor) {
+  const Result<double> number = cursor.number();
+  return number ? take_unit(*number, cursor) : number.error();
 }
 
 }  // namespace etendue
