@@ -1,5 +1,6 @@
 """A model of named parts and metal-rough materials, written as one binary glTF 2.0 file."""
 
+import dataclasses
 import json
 import math
 import struct
@@ -7,24 +8,23 @@ import struct
 from modelling.mesh import Mesh
 
 
+@dataclasses.dataclass(frozen=True)
+class Material:
+    """Colours are linear Rec.709; a texture is an sRGB PNG that multiplies the colour, a normal map a linear one."""
+
+    colour: tuple
+    roughness: float
+    metallic: float = 0.0
+    texture: bytes | None = None
+    normal: bytes | None = None
+
+
 class Model:
-    def __init__(self, name):
+    def __init__(self, name, materials):
         self.name = name
-        self.materials = {}
+        self.materials = materials  # name -> Material
         self.parts = {}  # name -> {material: Mesh}
         self.placements = {}  # name -> [(translation, degrees about y)]
-
-    def material(self, name, colour, roughness, metallic=0.0, texture=None, normal=None, normal_scale=1.0):
-        """Colours are linear Rec.709; a texture is an sRGB PNG that multiplies the colour, a normal map a linear one."""
-        self.materials[name] = {
-            "colour": colour,
-            "roughness": roughness,
-            "metallic": metallic,
-            "texture": texture,
-            "normal": normal,
-            "normal_scale": normal_scale,
-        }
-        return name
 
     def add(self, part, material, *meshes):
         if material not in self.materials:
@@ -94,12 +94,12 @@ class _Writer:
         return self.images[data]
 
     def add_material(self, name, m):
-        rough = {"baseColorFactor": [*m["colour"], 1.0], "metallicFactor": m["metallic"], "roughnessFactor": m["roughness"]}
+        rough = {"baseColorFactor": [*m.colour, 1.0], "metallicFactor": m.metallic, "roughnessFactor": m.roughness}
         entry = {"name": name, "pbrMetallicRoughness": rough}
-        if m["texture"]:
-            rough["baseColorTexture"] = {"index": self.texture(m["texture"], name + " colour")}
-        if m["normal"]:
-            entry["normalTexture"] = {"index": self.texture(m["normal"], name + " normal"), "scale": m["normal_scale"]}
+        if m.texture:
+            rough["baseColorTexture"] = {"index": self.texture(m.texture, name + " colour")}
+        if m.normal:
+            entry["normalTexture"] = {"index": self.texture(m.normal, name + " normal"), "scale": 1.0}
         self.document["materials"].append(entry)
         return len(self.document["materials"]) - 1
 
@@ -107,7 +107,7 @@ class _Writer:
         primitives = []
         for name, mesh in meshes.items():
             material = self.model.materials[name]
-            rows, indices = _welded(mesh, bool(material["texture"] or material["normal"]))
+            rows, indices = _welded(mesh, bool(material.texture or material.normal))
             attributes = {
                 "POSITION": self.floats([row[0:3] for row in rows], "VEC3", True),
                 "NORMAL": self.floats([row[3:6] for row in rows], "VEC3"),

@@ -2,7 +2,7 @@
 
 from modelling.masonry import bonded
 from modelling.mesh import merged
-from modelling.model import Model
+from modelling.model import Material, Model
 from modelling.pixels import clouds, hashed, mix, noise, png, smooth
 from modelling.props import bottle, bowl, cup, handle, jar, jar_lid, leafy, orange, plate, stool, window_frame
 from modelling.rig import DOWN, TOWARDS_VIEWER, rig_file
@@ -19,8 +19,7 @@ WINDOW = (-0.65, 0.65, 1.08, 2.12)
 
 
 def build():
-    model = Model("kitchen")
-    materials(model)
+    model = Model("kitchen", materials())
     room(model)
     base_units(model)
     sink_and_tap(model)
@@ -32,32 +31,34 @@ def build():
     return {"kitchen.glb": model.glb(), "kitchen.rig.json": rig()}
 
 
-def materials(model):
-    model.material("plaster", (0.72, 0.70, 0.66), 0.9)
-    model.material("ceiling", (0.80, 0.80, 0.78), 0.9)
-    model.material("floor oak", (1.0, 1.0, 1.0), 0.42, texture=planks())
-    model.material("front green", (0.090, 0.150, 0.125), 0.45)
-    model.material("island white", (0.68, 0.66, 0.60), 0.40)
-    model.material("worktop stone", (0.62, 0.60, 0.57), 0.22)
-    model.material("worktop oak", (0.42, 0.24, 0.115), 0.38)
-    model.material("butcher block", (1.0, 1.0, 1.0), 0.33, texture=butcher_block())
-    model.material("carcass", (0.05, 0.05, 0.05), 0.7)
-    model.material("tile", (0.74, 0.72, 0.66), 0.14)
-    model.material("grout", (0.42, 0.41, 0.39), 0.9)
-    model.material("brass", (0.86, 0.62, 0.30), 0.28, 1.0)
-    model.material("steel", (0.58, 0.57, 0.55), 0.42, 1.0)
-    model.material("black glass", (0.010, 0.010, 0.012), 0.10)
-    model.material("black metal", (0.025, 0.025, 0.027), 0.45)
-    model.material("frame white", (0.75, 0.75, 0.73), 0.35)
-    model.material("china", (0.80, 0.79, 0.76), 0.12)
-    model.material("blue glaze", (0.035, 0.110, 0.220), 0.15)
-    model.material("green bottle", (0.012, 0.060, 0.020), 0.10)
-    model.material("amber bottle", (0.20, 0.060, 0.010), 0.10)
-    model.material("orange", (0.80, 0.26, 0.020), 0.42)
-    model.material("leaf", (0.070, 0.210, 0.035), 0.5)
-    model.material("terracotta", (0.45, 0.16, 0.075), 0.8)
-    model.material("board", (0.36, 0.19, 0.085), 0.5)
-    model.material("cloth", (0.62, 0.13, 0.10), 0.95)
+def materials():
+    return {
+        "plaster": Material((0.72, 0.70, 0.66), 0.9),
+        "ceiling": Material((0.80, 0.80, 0.78), 0.9),
+        "floor oak": Material((1.0, 1.0, 1.0), 0.42, texture=planks()),
+        "front green": Material((0.090, 0.150, 0.125), 0.45),
+        "island white": Material((0.68, 0.66, 0.60), 0.40),
+        "worktop stone": Material((0.62, 0.60, 0.57), 0.22),
+        "worktop oak": Material((0.42, 0.24, 0.115), 0.38),
+        "butcher block": Material((1.0, 1.0, 1.0), 0.33, texture=butcher_block()),
+        "carcass": Material((0.05, 0.05, 0.05), 0.7),
+        "tile": Material((0.74, 0.72, 0.66), 0.14),
+        "grout": Material((0.42, 0.41, 0.39), 0.9),
+        "brass": Material((0.86, 0.62, 0.30), 0.28, 1.0),
+        "steel": Material((0.58, 0.57, 0.55), 0.42, 1.0),
+        "black glass": Material((0.010, 0.010, 0.012), 0.10),
+        "black metal": Material((0.025, 0.025, 0.027), 0.45),
+        "frame white": Material((0.75, 0.75, 0.73), 0.35),
+        "china": Material((0.80, 0.79, 0.76), 0.12),
+        "blue glaze": Material((0.035, 0.110, 0.220), 0.15),
+        "green bottle": Material((0.012, 0.060, 0.020), 0.10),
+        "amber bottle": Material((0.20, 0.060, 0.010), 0.10),
+        "orange": Material((0.80, 0.26, 0.020), 0.42),
+        "leaf": Material((0.070, 0.210, 0.035), 0.5),
+        "terracotta": Material((0.45, 0.16, 0.075), 0.8),
+        "board": Material((0.36, 0.19, 0.085), 0.5),
+        "cloth": Material((0.62, 0.13, 0.10), 0.95),
+    }
 
 
 def planks():

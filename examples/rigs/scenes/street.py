@@ -4,7 +4,7 @@ import math
 
 from modelling.masonry import BRICK_SIZE, around, bonded, brick_colour, brick_normal
 from modelling.mesh import merged, plus
-from modelling.model import Model
+from modelling.model import Material, Model
 from modelling.pixels import clouds, mix, png
 from modelling.props import window_frame
 from modelling.rig import TOWARDS_VIEWER, aimed, rig_file
@@ -25,8 +25,7 @@ SECOND_LAMP, SECOND_TARGET = (-8.2, 6.0, 4.2), (-1.0, 1.6, 0.3)
 
 
 def build():
-    model = Model("street")
-    materials(model)
+    model = Model("street", materials())
     walls(model)
     for index, opening in enumerate(GROUND_WINDOWS + FIRST_WINDOWS + SECOND_WINDOWS):
         window(model, opening, index)
@@ -39,20 +38,22 @@ def build():
     return {"street.glb": model.glb(), "street.rig.json": rig()}
 
 
-def materials(model):
-    model.material("brick", (1.0, 1.0, 1.0), 0.85, texture=brick_colour(), normal=brick_normal())
-    model.material("stone", (0.52, 0.47, 0.39), 0.75)
-    model.material("stone joint", (0.20, 0.18, 0.16), 0.9)
-    model.material("paint", (0.70, 0.69, 0.65), 0.40)
-    model.material("door blue", (0.020, 0.060, 0.110), 0.28)
-    model.material("brass", (0.86, 0.62, 0.30), 0.25, 1.0)
-    model.material("glass", (0.012, 0.014, 0.018), 0.08)
-    model.material("iron", (0.020, 0.022, 0.024), 0.35)
-    model.material("slab", (0.30, 0.29, 0.275), 0.55)
-    model.material("kerb", (0.36, 0.35, 0.33), 0.6)
-    model.material("asphalt", (1.0, 1.0, 1.0), 0.30, texture=asphalt())
-    model.material("curtain", (0.45, 0.20, 0.13), 0.95)
-    model.material("roof", (0.05, 0.055, 0.065), 0.6)
+def materials():
+    return {
+        "brick": Material((1.0, 1.0, 1.0), 0.85, texture=brick_colour(), normal=brick_normal()),
+        "stone": Material((0.52, 0.47, 0.39), 0.75),
+        "stone joint": Material((0.20, 0.18, 0.16), 0.9),
+        "paint": Material((0.70, 0.69, 0.65), 0.40),
+        "door blue": Material((0.020, 0.060, 0.110), 0.28),
+        "brass": Material((0.86, 0.62, 0.30), 0.25, 1.0),
+        "glass": Material((0.012, 0.014, 0.018), 0.08),
+        "iron": Material((0.020, 0.022, 0.024), 0.35),
+        "slab": Material((0.30, 0.29, 0.275), 0.55),
+        "kerb": Material((0.36, 0.35, 0.33), 0.6),
+        "asphalt": Material((1.0, 1.0, 1.0), 0.30, texture=asphalt()),
+        "curtain": Material((0.45, 0.20, 0.13), 0.95),
+        "roof": Material((0.05, 0.055, 0.065), 0.6),
+    }
 
 
 def asphalt():

@@ -3,7 +3,7 @@
 import math
 
 from modelling.mesh import aimed_mesh, merged
-from modelling.model import Model
+from modelling.model import Material, Model
 from modelling.pixels import clouds, mix, noise, png
 from modelling.props import coffee, cup, saucer
 from modelling.rig import aimed, rig_file
@@ -20,11 +20,8 @@ TURN = -28.0  # the machine's, about y
 
 
 def build():
-    metals = {name: Model(name) for name in ("copper", "brass", "chrome")}
-    for name, metal in metals.items():
-        metal.material(name, (0.8, 0.8, 0.8), 0.35, 1.0)
-    set_model = Model("studio")
-    materials(set_model)
+    metals = {name: Model(name, {name: Material((0.8, 0.8, 0.8), 0.35, 1.0)}) for name in ("copper", "brass", "chrome")}
+    set_model = Model("studio", materials())
 
     def put(metal, *meshes):
         metals[metal].add("machine", metal, *(m.turned("y", TURN) for m in meshes))
@@ -39,19 +36,21 @@ def build():
     return {**files, "studio.glb": set_model.glb(), "studio.rig.json": rig()}
 
 
-def materials(model):
-    model.material("paper", (0.46, 0.47, 0.49), 0.95)
-    model.material("walnut", (1.0, 1.0, 1.0), 0.30, texture=walnut())
-    model.material("black fabric", (0.018, 0.018, 0.020), 0.85)
-    model.material("white fabric", (0.80, 0.80, 0.80), 0.9)
-    model.material("black metal", (0.03, 0.03, 0.032), 0.40)
-    model.material("stand steel", (0.45, 0.45, 0.46), 0.35, 1.0)
-    model.material("china", (0.82, 0.81, 0.78), 0.12)
-    model.material("coffee", (0.045, 0.020, 0.008), 0.12)
-    model.material("dial white", (0.78, 0.77, 0.72), 0.4)
-    model.material("ink", (0.01, 0.01, 0.01), 0.5)
-    model.material("red", (0.55, 0.02, 0.015), 0.4)
-    model.material("table", (0.22, 0.14, 0.08), 0.6)
+def materials():
+    return {
+        "paper": Material((0.46, 0.47, 0.49), 0.95),
+        "walnut": Material((1.0, 1.0, 1.0), 0.30, texture=walnut()),
+        "black fabric": Material((0.018, 0.018, 0.020), 0.85),
+        "white fabric": Material((0.80, 0.80, 0.80), 0.9),
+        "black metal": Material((0.03, 0.03, 0.032), 0.40),
+        "stand steel": Material((0.45, 0.45, 0.46), 0.35, 1.0),
+        "china": Material((0.82, 0.81, 0.78), 0.12),
+        "coffee": Material((0.045, 0.020, 0.008), 0.12),
+        "dial white": Material((0.78, 0.77, 0.72), 0.4),
+        "ink": Material((0.01, 0.01, 0.01), 0.5),
+        "red": Material((0.55, 0.02, 0.015), 0.4),
+        "table": Material((0.22, 0.14, 0.08), 0.6),
+    }
 
 
 def walnut():

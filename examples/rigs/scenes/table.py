@@ -3,7 +3,7 @@
 import math
 
 from modelling.mesh import aimed_mesh, merged
-from modelling.model import Model
+from modelling.model import Material, Model
 from modelling.pixels import clouds, hashed, mix, noise, normal_png, png, smooth
 from modelling.props import bottle, coffee, cup, saucer, window_frame
 from modelling.rig import aimed, rig_file
@@ -19,8 +19,7 @@ SPOT, SPOT_TARGET = (0.55, 1.75, 1.05), (-0.04, 0.0, 0.10)
 
 
 def build():
-    model = Model("table")
-    materials(model)
+    model = Model("table", materials())
     room(model)
     wine(model)
     teapot(model)
@@ -31,27 +30,29 @@ def build():
     return {"table.glb": model.glb(), "table.rig.json": rig()}
 
 
-def materials(model):
-    model.material("table oak", (1.0, 1.0, 1.0), 0.36, texture=oak(), normal=oak_normal())
-    model.material("plaster", (0.36, 0.42, 0.43), 0.85)
-    model.material("panel", (0.30, 0.36, 0.37), 0.55)
-    model.material("frame white", (0.75, 0.75, 0.73), 0.4)
-    model.material("bottle glass", (0.010, 0.028, 0.012), 0.08)
-    model.material("capsule", (0.30, 0.015, 0.025), 0.35, 0.6)
-    model.material("label", (1.0, 1.0, 1.0), 0.7, texture=label())
-    model.material("celadon", (0.22, 0.42, 0.35), 0.10)
-    model.material("china", (0.80, 0.78, 0.74), 0.12)
-    model.material("coffee", (0.045, 0.020, 0.008), 0.10)
-    model.material("brass", (0.87, 0.65, 0.33), 0.34, 1.0)
-    model.material("steel", (0.62, 0.62, 0.61), 0.28, 1.0)
-    model.material("wax", (0.78, 0.70, 0.55), 0.45)
-    model.material("enamel", (0.30, 0.020, 0.016), 0.18)
-    model.material("enamel white", (0.80, 0.79, 0.76), 0.35)
-    model.material("leather", (0.100, 0.040, 0.018), 0.50)
-    model.material("dial", (0.015, 0.030, 0.060), 0.5)
-    model.material("lume", (0.75, 0.75, 0.66), 0.5)
-    model.material("linen", (0.62, 0.60, 0.54), 0.95, normal=weave())
-    model.material("cane", (0.40, 0.24, 0.10), 0.55)
+def materials():
+    return {
+        "table oak": Material((1.0, 1.0, 1.0), 0.36, texture=oak(), normal=oak_normal()),
+        "plaster": Material((0.36, 0.42, 0.43), 0.85),
+        "panel": Material((0.30, 0.36, 0.37), 0.55),
+        "frame white": Material((0.75, 0.75, 0.73), 0.4),
+        "bottle glass": Material((0.010, 0.028, 0.012), 0.08),
+        "capsule": Material((0.30, 0.015, 0.025), 0.35, 0.6),
+        "label": Material((1.0, 1.0, 1.0), 0.7, texture=label()),
+        "celadon": Material((0.22, 0.42, 0.35), 0.10),
+        "china": Material((0.80, 0.78, 0.74), 0.12),
+        "coffee": Material((0.045, 0.020, 0.008), 0.10),
+        "brass": Material((0.87, 0.65, 0.33), 0.34, 1.0),
+        "steel": Material((0.62, 0.62, 0.61), 0.28, 1.0),
+        "wax": Material((0.78, 0.70, 0.55), 0.45),
+        "enamel": Material((0.30, 0.020, 0.016), 0.18),
+        "enamel white": Material((0.80, 0.79, 0.76), 0.35),
+        "leather": Material((0.100, 0.040, 0.018), 0.50),
+        "dial": Material((0.015, 0.030, 0.060), 0.5),
+        "lume": Material((0.75, 0.75, 0.66), 0.5),
+        "linen": Material((0.62, 0.60, 0.54), 0.95, normal=weave()),
+        "cane": Material((0.40, 0.24, 0.10), 0.55),
+    }
 
 
 BOARDS = 5
