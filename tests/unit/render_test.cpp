@@ -126,6 +126,50 @@ TEST(Render, RectangleOnALambertFloorIsTheClosedFormIlluminance) {
   }
 }
 
+// Where a disk's plane meets a metal floor its light fades to nothing, in pixels of which often only a corner is lit.
+TEST(Render, PixelsThatTheLightsOwnPlaneCutsAreIntegratedUpToTheKink) {
+  Scene scene = floor_scene();
+  scene.materials.push_back({});
+  scene.materials[0].model = conductor_from_f0({0.9, 0.7, 0.4}, 0.3);
+  scene.objects[0].material = 0;
+  const Vec3d emits = normalised(Vec3d{-1, -0.4, 0.1}), centre{0.6, 0.3, 0};
+  const Vec3d x = normalised(cross(Vec3d{0, 1, 0}, emits));
+  scene.lights.push_back(with_luminance(DiskShape{0.2}, 1000, {{x, cross(x, emits), -emits}, centre}));
+  scene.lights[0].visible = false;
+  const RenderOptions options = small();
+  const Rendered out = rendered(scene, options);
+  const Result<eval::Emitter> emitter = eval::emitter_of(scene.lights[0]);
+  ASSERT_TRUE(emitter.ok());
+  constexpr int side = 64;
+  int cut = 0;
+  for (std::size_t i = 0; i < std::size_t{24} * 24; ++i) {
+    const auto place = [&](double u, double v) {
+      return floor_point(scene.cameras[0], options, static_cast<double>(i % 24) + u, static_cast<double>(i / 24) + v);
+    };
+    const auto faces = [&](const Vec3d& p) { return dot(p - centre, emits) > 0; };
+    int corners = 0;
+    for (const double u : {0.0, 1.0}) corners += (faces(place(u, 0)) ? 1 : 0) + (faces(place(u, 1)) ? 1 : 0);
+    if (corners == 0 || corners == 4) continue;
+    double sum = 0, lit = 0;
+    for (int k = 0; k < side * side; ++k) {
+      const Vec3d p = place((k % side + 0.5) / side, (k / side + 0.5) / side);
+      if (!faces(p)) continue;
+      const eval::ShadingPoint point{
+          p, {0, 1, 0}, {0, 1, 0}, normalised(scene.cameras[0].transform.translation - p), std::get<Conductor>(scene.materials[0].model)};
+      sum += eval::reference(*emitter, point, {1e-5, 0}).value.y;
+      lit += 1;
+    }
+    if (lit < 8) continue;
+    // Light grows with the distance h from the kink. Over a lit corner of the length s, side^2 s^2 / 2 = lit midpoints in all, the integral
+    // of h is off by about 1 / (side s)^2 = 1 / (2 lit) of it. Besides, pixels are a third of the way to the light: .5 % for the
+    // quadrature. (One place a region was 2 to 10 % off.)
+    const double expected = sum / (side * side);
+    EXPECT_NEAR(green(out.picture, "", i), expected, (5e-3 + 1 / lit) * expected) << i;
+    ++cut;
+  }
+  EXPECT_GT(cut, 20);
+}
+
 // A sphere of angular radius a on the axis of the picture fills a circle of radius tan a on the plane at distance 1.
 TEST(Render, AVisibleSphereLightHasItsLuminanceAndItsSize) {
   Scene scene;

@@ -142,7 +142,8 @@ LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, con
   std::map<std::uint32_t, Region> all;
   const bool cheap = light_.delta || regions.only_lambert;
   Measured out;
-  for (const Node& node : cheap ? regions.nodes : regions.coarse) {
+  const bool kinked = !regions.kinked.empty() && std::count(regions.kinks.begin(), regions.kinks.end(), light_.index) > 0;
+  for (const Node& node : kinked ? regions.kinked : cheap ? regions.nodes : regions.coarse) {
     const Reflected here = at(x + static_cast<double>(node.x), y + static_cast<double>(node.y), beta, counts);
     const auto weight = static_cast<double>(node.weight);
     Region& region = all[node.region];
@@ -161,7 +162,7 @@ LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, con
       low[c] = std::min(low[c], mean[c]);
       high[c] = std::max(high[c], mean[c]);
       // Places chosen at random; the others are a quadrature, whose error is far below the areas'.
-      if (region.nodes < 2 || !(cheap ? kind.textured : kind.varies)) continue;
+      if (region.nodes < 2 || !(cheap || kinked ? kind.textured : kind.varies)) continue;
       const double spread = std::max(0.0, region.squares[c] / region.weight - mean[c] * mean[c]) / (region.nodes - 1);
       out.variance[c] += region.weight * region.weight * spread;
     }

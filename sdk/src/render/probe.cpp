@@ -32,18 +32,6 @@ std::uint64_t state_of(const StageLight& light, const Stage& stage, const Surfac
   return 1;
 }
 
-// A flat light's plane cuts the picture: on one side its light is there, on the other there is none, with a kink between. A surface in that
-// very plane is on one side of it.
-std::uint64_t side_of_plane(const StageLight& light, const Vec3d& position) {
-  const auto side = [&](const Vec3d& origin, const Vec3d& normal) -> std::uint64_t {
-    const Vec3d to = position - origin;
-    return dot(to, normal) > 1e-6 * length(to) ? 1 : 0;
-  };
-  if (const auto* disk = std::get_if<eval::DiskEmitter>(&light.emitter.shape)) return side(disk->centre, disk->normal);
-  const auto* polygon = std::get_if<eval::PolygonEmitter>(&light.emitter.shape);
-  return polygon != nullptr && !polygon->vertices.empty() ? side(polygon->vertices.front(), polygon->normal) : 0;
-}
-
 // The edge of a sun's disk is the only discontinuity of a background.
 bool sun_is_at(const StageLight& light, const Ray& ray) {
   return light.background && std::holds_alternative<eval::DistantEmitter>(light.emitter.shape) &&
@@ -78,6 +66,16 @@ Probe Prober::look(double x, double y, RayCounts& counts) const {
     probe.key = mixed(probe.key ^ state);
   }
   return probe;
+}
+
+std::uint64_t side_of_plane(const StageLight& light, const Vec3d& position) {
+  const auto side = [&](const Vec3d& origin, const Vec3d& normal) -> std::uint64_t {
+    const Vec3d to = position - origin;
+    return dot(to, normal) > 1e-6 * length(to) ? 1 : 0;
+  };
+  if (const auto* disk = std::get_if<eval::DiskEmitter>(&light.emitter.shape)) return side(disk->centre, disk->normal);
+  const auto* polygon = std::get_if<eval::PolygonEmitter>(&light.emitter.shape);
+  return polygon != nullptr && !polygon->vertices.empty() ? side(polygon->vertices.front(), polygon->normal) : 0;
 }
 
 eval::LightSample delta_light(const StageLight& light, const Vec3d& position) {

@@ -30,6 +30,10 @@ class Prober {
   const PinholeCamera& camera_;
 };
 
+// A flat light's plane cuts the picture: 1 on the side where its light is, 0 where there is none, with a kink between. A surface in that
+// very plane is on one side of it; other lights have none: 0.
+std::uint64_t side_of_plane(const StageLight& light, const Vec3d& position);
+
 // What a punctual light or a true direction sends to a point that sees it: direction, distance and lux facing it; pdf 0 where nothing.
 eval::LightSample delta_light(const StageLight& light, const Vec3d& position);
 

@@ -23,9 +23,11 @@ struct SurfaceKind {
 
 // The weights of either list sum to 1. `area_error`: estimate for the area of any region, in pixels.
 struct Regions {
-  std::vector<Node> nodes;         // along all scanlines: quadratic variation is integrated exactly along them
-  std::vector<Node> coarse;        // one a region, at its centroid (exact where light varies linearly); several where the surface varies
-  std::vector<SurfaceKind> kinds;  // by region
+  std::vector<Node> nodes;           // along all scanlines: quadratic variation is integrated exactly along them
+  std::vector<Node> kinked;          // for light that fades towards its plane, where that cuts the pixel: see kinks_of(); else empty
+  std::vector<Node> coarse;          // one a region, at its centroid (exact where light varies linearly); several where the surface varies
+  std::vector<SurfaceKind> kinds;    // by region
+  std::vector<std::uint32_t> kinks;  // lights whose plane cuts the pixel, by StageLight::index
   double area_error = 0;
   bool only_lambert = true;  // what is seen is matt, black or a light
 };
