@@ -71,8 +71,8 @@ Result<Wide> ratio_between(Dimension given, Dimension wanted, const LightSetup& 
   const Result<Wide> divisor = std::visit(RatioOf{given, setup, setup.given_distance_m}, *setup.shape);
   const Result<Wide> factor = std::visit(RatioOf{wanted, setup, setup.wanted_distance_m}, *setup.shape);
   // What the shape cannot say at all is told before what is missing to say it.
-  if (!factor && (divisor || factor.error().code == "UNIT_UNSUITABLE")) return factor;
-  if (!divisor) return divisor;
+  if (!factor && (divisor || factor.error().code == "UNIT_UNSUITABLE")) return factor.error();
+  if (!divisor) return divisor.error();
   return *factor / *divisor;
 }
 

@@ -66,7 +66,7 @@ Written in_kelvin(double kelvin) { return WrittenQuantity{kelvin, {Dimension::te
 // What becomes of temperatures that lights do not have: refused, or where somebody listens clamped.
 Result<double> legal(double kelvin, const Cursor& at, Diagnostics* clamped) {
   const Result<double> checked = checked_temperature(kelvin);
-  if (checked) return checked;
+  if (checked) return *checked;
   const Result<ClampedTemperature> nearest = clamped != nullptr ? clamped_temperature(kelvin) : Result<ClampedTemperature>(checked.error());
   if (!nearest) return at.located(nearest.error());
   clamped->warning("TEMPERATURE_CLAMPED", fmt::format("{} K counts as {} K, the nearest there is", kelvin, nearest->kelvin),
