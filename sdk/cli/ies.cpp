@@ -8,8 +8,10 @@
 #include <mutex>
 #include <thread>
 
+#include "photometric_compare.h"
 #include "photometric_convert.h"
 #include "photometric_diagrams.h"
+#include "photometric_sheet.h"
 #include "verbs.h"
 
 namespace etendue::cli {
@@ -22,8 +24,8 @@ struct Options {
   std::string interpolation = "linear", orientation, units = "metric";
   std::size_t lamp_set = 1;
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
-  bool csv = false, check = false, strict = false;
-  std::string convert, svg, diagram = "polar", plane = "3 m";
+  bool csv = false, check = false, strict = false, compare = false;
+  std::string convert, html, svg, diagram = "polar", plane = "3 m";
   double fold = -1;
   ConvertChoice conversion;
 };
@@ -72,22 +74,22 @@ Result<Direction> direction_from(const std::string& text) {
   return direction;
 }
 
-std::vector<PhotometricReading> read_all(const std::vector<std::string>& files, const PhotometricChoice& choice, unsigned jobs, Bar& bar) {
-  std::vector<PhotometricReading> readings(files.size());
+// work(i) for every i below `count`, several at a time; the bar shows how many are done.
+template <class Work>
+void in_parallel(std::size_t count, unsigned jobs, Bar& bar, const char* stage, const Work& work) {
   std::atomic<std::size_t> next = 0, done = 0;
   std::mutex reporting;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < files.size() && !interrupted(); i = next++) {
-      readings[i] = read_photometric(files[i], choice);
+  const auto run = [&] {
+    for (std::size_t i = next++; i < count && !interrupted(); i = next++) {
+      work(i);
       const std::scoped_lock lock(reporting);
-      bar.report("read", static_cast<double>(++done) / static_cast<double>(files.size()));
+      bar.report(stage, static_cast<double>(++done) / static_cast<double>(count));
     }
   };
   std::vector<std::thread> threads;
-  for (unsigned i = 1; i < std::min<std::size_t>(jobs, files.size()); ++i) threads.emplace_back(work);
-  work();
+  for (unsigned i = 1; i < std::min<std::size_t>(jobs, count); ++i) threads.emplace_back(run);
+  run();
   for (std::thread& thread : threads) thread.join();
-  return readings;
 }
 
 void say_cones(const Session& session, Json& json, const IntensityWeb& web, const std::vector<double>& distances, Units units) {
@@ -166,6 +168,34 @@ Status draw(const PhotometricReading& reading, const Options& options, double pl
   return write_file(out, std::as_bytes(std::span(svg)));
 }
 
+Status write_page(const Session& session, const std::vector<PhotometricReading>& readings, const Options& options, Units units) {
+  std::vector<std::string> cards(readings.size());
+  {
+    Bar bar(session);
+    in_parallel(readings.size(), options.jobs, bar, "draw", [&](std::size_t i) { cards[i] = luminaire_card(readings[i], units); });
+  }
+  std::string title = fs::path(options.files.front()).lexically_normal().filename().string();
+  if (options.files.size() > 1 || title.empty()) title = "Luminaires";
+  const std::string page = luminaire_page(cards, title);
+  return write_file(options.html, std::as_bytes(std::span(page)));
+}
+
+int say_comparison(Session& session, const std::vector<PhotometricReading>& readings, const Options& options, double plane_m) {
+  for (const PhotometricReading& reading : readings) {
+    if (reading.error) return session.fail(*reading.error);
+    session.diagnostics.append(reading.diagnostics);
+  }
+  session.print(comparison_of(readings[0], readings[1]));
+  session.result = comparison_json(readings[0], readings[1]);
+  if (!options.svg.empty()) {
+    const std::string a = fs::path(readings[0].file).filename().string(), b = fs::path(readings[1].file).filename().string();
+    const std::string svg = drawn({{&readings[0].web, a}, {&readings[1].web, b}}, a + " and " + b, options, plane_m);
+    if (const Status written = write_file(options.svg, std::as_bytes(std::span(svg))); !written) return session.fail(written.error());
+  }
+  session.stats["files"] = readings.size();
+  return session.finish(exit_done);
+}
+
 int run_ies(const Common& common, const Options& options) {
   Session session("ies", common);
   session.result = Json::array();
@@ -197,13 +227,23 @@ int run_ies(const Common& common, const Options& options) {
   if (!files) return session.fail(files.error());
   if (!options.convert.empty() && files->size() != 1)
     return session.fail({"USAGE", fmt::format("--convert takes one file, found {}", files->size()), {}, "", {}});
+  if (options.compare && files->size() != 2)
+    return session.fail({"USAGE", fmt::format("--compare takes two files, found {}", files->size()), {}, "", {}});
+  if (options.compare && options.diagram == "web")
+    return session.fail({"USAGE", "--compare draws no body over another", {}, "--diagram polar, cartesian or isolux", {}});
   std::vector<PhotometricReading> readings;
   {
     Bar bar(session);
-    readings = read_all(*files, choice, options.jobs, bar);
+    readings.resize(files->size());
+    in_parallel(files->size(), options.jobs, bar, "read", [&](std::size_t i) { readings[i] = read_photometric((*files)[i], choice); });
   }
   if (interrupted()) return session.fail({"CANCELLED", "cancelled", {}, "", {}});
 
+  if (options.compare) return say_comparison(session, readings, options, *plane_m);
+  if (!options.html.empty()) {
+    if (const Status written = write_page(session, readings, options, units); !written) return session.fail(written.error());
+  }
+  const bool reported = !options.csv && !options.check && options.convert.empty() && options.html.empty();
   if (options.csv) session.print(csv_header());
   bool bad = false, warned = false;
   int status = exit_done;
@@ -218,7 +258,7 @@ int run_ies(const Common& common, const Options& options) {
     }
     for (const Diagnostic& d : reading.diagnostics.all()) warned = warned || d.severity == Severity::warning;
     session.diagnostics.append(reading.diagnostics);
-    if (!options.csv && !options.check && options.convert.empty()) session.print(report_of(reading, units));
+    if (reported) session.print(report_of(reading, units));
     say_directions(session, json, reading.web, directions);
     say_cones(session, json, reading.web, distances, units);
     if (!options.svg.empty()) {
@@ -239,6 +279,8 @@ void add_ies(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("FILE", options->files, "IES LM-63 (.ies) and EULUMDAT (.ldt) files, or folders of them")->required();
   verb->add_flag("--csv", options->csv, "One row a file");
   verb->add_flag("--check", options->check, "Only what is wrong; warnings give exit status 1 too");
+  verb->add_flag("--compare", options->compare, "Two files beside each other: figures, and the largest and mean difference of intensity");
+  verb->add_option("--html", options->html, "Write a page with a card of each file, to sort and search. What is there is replaced");
   verb->add_flag("--strict", options->strict, "Refuse what a tolerant reading repairs");
   verb->add_option("--at", options->at, "Intensity towards C,gamma in degrees; repeatable");
   verb->add_option("--cone", options->cone, "Beam diameter and illuminance at these distances: 1m,2m,5m")->delimiter(',');
@@ -278,6 +320,7 @@ void add_ies(CLI::App& app, const Common& common, Run& run) {
       "\nExamples:\n  etendue ies lamp.ies\n  etendue ies library/ --csv > library.csv\n  etendue ies lamp.ldt --at 90,30 --cone 1m,2m,5m\n"
       "  etendue ies library/ --check\n  etendue ies lamp.ies --convert lamp.ldt --fold 0.001\n  etendue ies lamp.ies --convert "
       "smaller.ies --resample 5,15 --turn 30\n  etendue ies lamp.ies --svg lamp.svg\n"
+      "  etendue ies library/ --html library.html\n  etendue ies --compare old.ies new.ies --svg both.svg\n"
       "  etendue ies street.ldt --svg street.svg --diagram isolux --plane \"8 m\"");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_ies(common, *options); }; });
 }

@@ -17,6 +17,8 @@ struct DrawnWeb {
 // cd over direction in the planes C0-C180, drawn through, and C90-C270, dashed: round about the light, or along an axis of angles. One web,
 // or two over each other.
 std::string polar_svg(std::span<const DrawnWeb> webs, const std::string& title);
+// Of one web, without words about it and without colours of its own, for a page that has svg_style().
+std::string polar_figure(const IntensityWeb& web);
 std::string cartesian_svg(std::span<const DrawnWeb> webs, const std::string& title);
 
 // The web as a body: towards each direction as far out as it is bright.

@@ -151,7 +151,7 @@ std::string isolux_svg(std::span<const DrawnWeb> webs, const std::string& title,
       const char* const paint = several ? (w == 0 ? "class=\"a thin\"" : "class=\"b thin\"")
                                         : "fill=\"none\" stroke=\"#0b1014\" stroke-opacity=\".55\" stroke-width=\"1\"";
       sheet.raw(fmt::format("<path clip-path=\"url(#frame)\" d=\"{}\" {}/>\n", path_of(plane, loops), paint));
-      if (w == 0) place_label(labels, plane, loops, levels[i], i);
+      place_label(labels, plane, loops, levels[i], i);
     }
   sheet.raw(fmt::format("<rect x=\"{0:g}\" y=\"{1:g}\" width=\"{2:g}\" height=\"{2:g}\" class=\"axis\"/>\n", left, top, side));
   for (const Label& label : labels) sheet.text({label.at.x, label.at.y + 4}, label.text, "ink halo", "middle", 11.5);

@@ -10,7 +10,7 @@
 namespace etendue::cli {
 namespace {
 
-constexpr double width = 680, radius = 250, top = 92;
+constexpr double width = 680, radius = 250, under_heading = 92, with_keys = 92;
 
 // The brightest direction whose gamma is within a range.
 double brightest(std::span<const DrawnWeb> webs, double from_deg, double to_deg) {
@@ -35,11 +35,11 @@ struct Frame {
   bool shows(double gamma_deg) const { return part == Part::whole || (part == Part::lower ? gamma_deg <= 90.01 : gamma_deg >= 89.99); }
 };
 
-Frame frame_of(std::span<const DrawnWeb> webs) {
+Frame frame_of(std::span<const DrawnWeb> webs, double top, double below_it) {
   const double peak = brightest(webs, 0, 180), up = brightest(webs, 92, 180), down = brightest(webs, 0, 88);
   const Part part = up <= 0.005 * peak ? Part::lower : down <= 0.005 * peak ? Part::upper : Part::whole;
   const double above = part == Part::lower ? 16 : radius, below = part == Part::upper ? 16 : radius;
-  return {part, {width / 2, top + above + 20}, peak > 0 ? round_up(peak) : 1, top + above + below + 92};
+  return {part, {width / 2, top + above + 20}, peak > 0 ? round_up(peak) : 1, top + above + below + below_it};
 }
 
 void draw_grid(SvgSheet& sheet, const Frame& frame) {
@@ -76,34 +76,49 @@ void draw_scale(SvgSheet& sheet, const Frame& frame) {
   }
 }
 
-std::vector<Vec2d> curve(const Frame& frame, const IntensityWeb& web, double c_deg) {
+std::vector<Vec2d> curve(const Frame& frame, const IntensityWeb& web, double c_deg, double step) {
   std::vector<Vec2d> points;
   const auto add = [&](double c, double side, double gamma) {
     if (frame.shows(gamma)) points.push_back(frame.at(side, gamma, radius * web.at(c, gamma) / frame.outer_cd));
   };
-  constexpr double step = 0.5;
   for (const double gamma : ticks(180, step, -step)) add(c_deg + 180, -1, gamma);
   for (const double gamma : ticks(0, 180, step)) add(c_deg, 1, gamma);
   return points;
 }
 
-}  // namespace
-
-std::string polar_svg(std::span<const DrawnWeb> webs, const std::string& title) {
-  const Frame frame = frame_of(webs);
+// The first web in front; a point every `step` degrees.
+void draw_curves(SvgSheet& sheet, const Frame& frame, std::span<const DrawnWeb> webs, double step) {
   const bool several = webs.size() > 1;
-  SvgSheet sheet(width, frame.height + (several ? 24 : 0));
-  sheet.heading(title, several ? "intensity, cd" : key_figures(*webs[0].web));
-  draw_grid(sheet, frame);
   for (std::size_t i = webs.size(); i-- > 0;) {
     const bool second = several && i == 1;
-    const std::vector<Vec2d> across = curve(frame, *webs[i].web, 90), along = curve(frame, *webs[i].web, 0);
+    const std::vector<Vec2d> across = curve(frame, *webs[i].web, 90, step), along = curve(frame, *webs[i].web, 0, step);
     const bool closed = frame.part == Part::whole;
     sheet.path(across, true, second || !several ? "fb" : "fa");
     sheet.path(along, true, second ? "fb" : "fa");
     sheet.path(across, closed, second || !several ? "b dash" : "a dash");
     sheet.path(along, closed, second ? "b" : "a");
   }
+}
+
+}  // namespace
+
+std::string polar_figure(const IntensityWeb& web) {
+  const DrawnWeb drawn{&web, ""};
+  const Frame frame = frame_of({&drawn, 1}, 22, 62);
+  SvgSheet sheet(width, frame.height);
+  draw_grid(sheet, frame);
+  draw_curves(sheet, frame, {&drawn, 1}, 1.5);
+  draw_scale(sheet, frame);
+  return sheet.str(SvgSheet::Style::of_the_page);
+}
+
+std::string polar_svg(std::span<const DrawnWeb> webs, const std::string& title) {
+  const Frame frame = frame_of(webs, under_heading, with_keys);
+  const bool several = webs.size() > 1;
+  SvgSheet sheet(width, frame.height + (several ? 24 : 0));
+  sheet.heading(title, several ? "intensity, cd" : key_figures(*webs[0].web));
+  draw_grid(sheet, frame);
+  draw_curves(sheet, frame, webs, 0.5);
   draw_scale(sheet, frame);
   const double y = frame.height - 18;
   if (several) {

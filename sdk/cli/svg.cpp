@@ -116,11 +116,14 @@ double SvgSheet::key(Vec2d at, std::string_view classes, std::string_view label)
   return at.x + 60 + 6.6 * static_cast<double>(label.size());
 }
 
-std::string SvgSheet::str() const {
+std::string_view svg_style() { return style; }
+
+std::string SvgSheet::str(Style which) const {
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" height=\"{1:g}\" class=\"sheet\">\n",
              width_, height_) +
-         std::string(style) + fmt::format("<rect width=\"{:g}\" height=\"{:g}\" class=\"paper\"/>\n", width_, height_) + body_ + "</svg>\n";
+         (which == Style::own ? std::string(style) : std::string()) +
+         fmt::format("<rect width=\"{:g}\" height=\"{:g}\" class=\"paper\"/>\n", width_, height_) + body_ + "</svg>\n";
 }
 
 // Seven colours of matplotlib's "viridis" (public domain, van der Walt and Smith 2015), straight between them.

@@ -42,12 +42,17 @@ class SvgSheet {
   // A sample of a line, and what it stands for; returns where the next one may begin.
   double key(Vec2d at, std::string_view classes, std::string_view label);
 
-  std::string str() const;
+  // The whole file; or, to stand in a page that has svg_style() once, without its colours.
+  enum class Style { own, of_the_page };
+  std::string str(Style style = Style::own) const;
 
  private:
   double width_, height_;
   std::string body_;
 };
+
+// The classes' colours, as a style element.
+std::string_view svg_style();
 
 // A colour for 0 (dark) to 1 (bright), of even steps to the eye and in any kind of colour vision: "#rrggbb".
 std::string ramp_colour(double t, double shade = 1);

@@ -15,6 +15,7 @@ NB_MODULE(_core, m) {
   bind_spectrum(m);
   bind_batch(m);
   bind_dialect(m);
+  bind_photometry(m);
   bind_hdri(m);
   bind_false_colour(m);
 }

@@ -15,6 +15,7 @@ void bind_colour_space(nanobind::module_& m);
 void bind_metering(nanobind::module_& m);
 void bind_dialect(nanobind::module_& m);
 void bind_pixel(nanobind::module_& m);
+void bind_photometry(nanobind::module_& m);
 void bind_hdri(nanobind::module_& m);
 void bind_false_colour(nanobind::module_& m);
 

@@ -14,7 +14,7 @@
 Whatever cannot be answered is an etendue.Error with code, text, hint, field.
 """
 
-from . import batch, camera, colour, colour_space, dialect, false_colour, hdri, metering, pixel, spectrum
+from . import batch, camera, colour, colour_space, dialect, false_colour, hdri, metering, photometry, pixel, spectrum
 from .conversion import Explanation, convert, explain
 from .errors import ClampedWarning, Error
 from .quantity import Quantity, Unit, dimensions, quantity, units
@@ -70,6 +70,7 @@ __all__ = [
     "hdri",
     "metering",
     "parse",
+    "photometry",
     "pixel",
     "quantity",
     "spectrum",
