@@ -56,8 +56,11 @@ def measure(arguments, asset, folder):
         samples = wanted
     regions = judged(result)
     worst = max(regions, key=lambda r: abs(r["difference"]) - 3 * r["standard_error"])
-    # Chi-squared has its window over 1e4 pixels or more; the lower end moves where Mitsuba's float32 sums are more than its noise.
-    limits = [CHI2[0] * result["chi2_expected"], CHI2[1]] if result["chi2_pixels"] >= 10000 else None
+    # Chi-squared has its window over 1e4 pixels or more. Its lower end moves where Mitsuba's float32 sums or our own variance are more than
+    # Mitsuba's noise, and is as wide as the pixels that hold noise, about that part of all, allow: the window's width goes as N^-1/2.
+    expected, pixels = result["chi2_expected"], result["chi2_pixels"]
+    width = (1 - CHI2[0]) * math.sqrt(10000 / min(10000, max(1, expected * pixels)))
+    limits = [expected * max(0, 1 - width), CHI2[1]] if pixels >= 10000 else None
     return {"d": worst["difference"], "d_se": worst["standard_error"], "se": max(r["standard_error"] for r in regions),
             "chi2": result["chi2_per_pixel"], "chi2_pixels": result["chi2_pixels"], "chi2_limits": limits, "verdict": result["verdict"],
             "samples": samples, "seconds": time.time() - start}

@@ -128,6 +128,7 @@ Result<Evidence> gather(const Picture& ours, const Picture& reference, const std
   for (double value : e.reference) total += std::abs(value);
   const double mean = total / static_cast<double>(3 * count);
   e.variance.resize(3 * count);
+  e.scatter.resize(3 * count);
   double counted = 0;
   for (std::size_t i = 0; i < 3 * count; ++i) {
     const double rounding = float_accumulation * e.reference[i];
@@ -136,6 +137,7 @@ Result<Evidence> gather(const Picture& ours, const Picture& reference, const std
     // probability that gives ours, K trials would have the variance |ours| mean / K; a seed is at least one trial.
     const bool unseen = e.reference[i] == 0 && theirs == 0;
     e.variance[i] = theirs + own + rounding * rounding + (unseen ? std::abs(e.ours[i]) * mean / e.seeds : 0);
+    e.scatter[i] = theirs;
     if (!(e.variance[i] > 0)) continue;
     e.own_noise += own / e.variance[i];
     counted += 1;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace etendue::rendering {
 namespace {
@@ -109,15 +110,15 @@ std::optional<SurfacePoint> Lighting::target_point(const PixelTarget& target, co
   return point;
 }
 
-Sampled Lighting::sample(const StageLight& light, const PixelTarget& target, double beta, int points_a_replicate, std::uint64_t seed,
+Sampled Lighting::sample(const StageLight& light, const PixelTarget& target, double beta, const Effort& effort, std::uint64_t seed,
                          RayCounts& counts) const {
   Sampled result;
-  std::array<Rgb, replicates> estimates;
+  std::vector<Rgb> estimates(static_cast<std::size_t>(effort.replicates));
   const std::uint32_t own = light.convex ? light.thing : no_index;
-  for (std::size_t r = 0; r < replicates; ++r) {
+  for (std::size_t r = 0; r < estimates.size(); ++r) {
     Sequence sequence(mixed(seed) + r);
     Sums sums;
-    for (int i = 0; i < points_a_replicate; ++i) {
+    for (int i = 0; i < effort.points; ++i) {
       const auto u = sequence.next();
       const Ray ray = camera_.through(target.x + u[0], target.y + u[1]);
       const std::optional<SurfacePoint> point = target_point(target, ray, counts);
@@ -147,12 +148,13 @@ Sampled Lighting::sample(const StageLight& light, const PixelTarget& target, dou
       if (met.radiance == Rgb{}) continue;
       add(reflection.direction, met.distance, reflector.brdf_cos(reflection.direction) * met.radiance / (met.pdf + reflection.pdf));
     }
-    estimates[r] = (sums.visible - sums.all * beta) / static_cast<double>(points_a_replicate);
-    result.mean += estimates[r] / static_cast<double>(replicates);
+    estimates[r] = (sums.visible - sums.all * beta) / static_cast<double>(effort.points);
+    result.mean += estimates[r] / static_cast<double>(effort.replicates);
     result.visible_sum += sum(sums.visible);
     result.all_sum += sum(sums.all);
   }
-  for (const Rgb& e : estimates) result.variance += squared(e - result.mean) / static_cast<double>(replicates * (replicates - 1));
+  for (const Rgb& e : estimates)
+    result.variance += squared(e - result.mean) / static_cast<double>(effort.replicates * (effort.replicates - 1));
   return result;
 }
 

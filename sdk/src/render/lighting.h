@@ -12,7 +12,10 @@ namespace etendue::rendering {
 
 inline double largest(const Rgb& c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
 
-inline constexpr int replicates = 8;  // independent estimates that a variance is computed from
+// Independent estimates that a variance is computed from, and points in each.
+struct Effort {
+  int replicates, points;
+};
 
 // The estimate of a pixel's reflected light minus beta times its unblocked light, both from the same samples (see sdk/docs/rendering.md).
 struct Sampled {
@@ -42,7 +45,7 @@ class Lighting {
   Reflected reflected(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
                       RayCounts& counts) const;
   // The mean of (V - beta) times reflected light over pixel and light; V is 1 where the light is seen and else 0.
-  Sampled sample(const StageLight& light, const PixelTarget& target, double beta, int points_a_replicate, std::uint64_t seed,
+  Sampled sample(const StageLight& light, const PixelTarget& target, double beta, const Effort& effort, std::uint64_t seed,
                  RayCounts& counts) const;
 
  private:
