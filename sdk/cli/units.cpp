@@ -52,7 +52,7 @@ Status answer_one(Session& session, const std::string& text, const std::optional
     d.where = in_quantity(d.where, text, session.common().json);
     session.diagnostics.add(d);
   }
-  if (const Status said = say(session, text, *written, target, setup, options, results); !said) return said;
+  if (const Status said = say(session, text, *written, target, setup, options, results); !said) return said.error();
   if (!told.all().empty()) results.back()["clamped"] = true;
   return Done{};
 }

@@ -131,7 +131,7 @@ Status state_in_dialect(Session& session, const std::string& text, const std::op
     LightSetup ours = setup;
     ours.shape = light.shape;
     ours.conventions.two_sided = light.two_sided;
-    if (const Status said = say(session, text, *emitted, target, ours, options, results); !said) return said;
+    if (const Status said = say(session, text, *emitted, target, ours, options, results); !said) return said.error();
     results.back()["losses"] = losses;
     return Done{};
   }
