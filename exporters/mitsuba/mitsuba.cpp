@@ -110,19 +110,19 @@ class SceneFiles {
  public:
   // Errors: SCENE_INVALID, CAMERA_MISSING.
   static Result<std::unique_ptr<SceneFiles>> begin(const Scene& scene, const std::filesystem::path& file, const ExportOptions& options,
-                                                   Diagnostics& diagnostics) {
+                                                   MitsubaWebs webs, Diagnostics& diagnostics) {
     if (const Diagnostics found = validate(scene); found.has_errors()) return invalid(found);
     const Bounds bounds = bounds_of(scene);
     Result<Camera> camera = camera_of(scene, bounds, options, diagnostics);
     if (!camera) return camera.error();
-    return std::unique_ptr<SceneFiles>(new SceneFiles(scene, file, bounds, std::move(*camera)));
+    return std::unique_ptr<SceneFiles>(new SceneFiles(scene, file, bounds, std::move(*camera), webs));
   }
 
   Status add(const std::filesystem::path& file, const ExportOptions& options, LossReport& losses) {
     pugi::xml_document document;
     pugi::xml_node root = document.append_child("scene");
     root.append_attribute("version") = "3.0.0";
-    Writer writer{scene_, options, assets_, root, losses, bounds_, extent_of(bounds_, camera_)};
+    Writer writer{scene_, options, assets_, root, losses, bounds_, webs_, extent_of(bounds_, camera_)};
     if (Status s = write_scene(writer, camera_); !s) return s.error();
     std::ostringstream text;
     document.save(text, "  ");
@@ -143,25 +143,28 @@ class SceneFiles {
   }
 
  private:
-  SceneFiles(const Scene& scene, const std::filesystem::path& file, const Bounds& bounds, Camera camera)
-      : scene_(scene), bounds_(bounds), camera_(std::move(camera)), assets_(file) {}
+  SceneFiles(const Scene& scene, const std::filesystem::path& file, const Bounds& bounds, Camera camera, MitsubaWebs webs)
+      : scene_(scene), bounds_(bounds), camera_(std::move(camera)), webs_(webs), assets_(file) {}
 
   const Scene& scene_;
   Bounds bounds_;
   Camera camera_;
+  MitsubaWebs webs_;
   AssetFolder assets_;
   std::vector<std::pair<std::filesystem::path, std::string>> texts_;
 };
 
 class MitsubaExporter : public Exporter {
  public:
+  explicit MitsubaExporter(MitsubaWebs webs) : webs_(webs) {}
+
   FormatInfo describe() const override {
     return {"mitsuba", "Mitsuba 3", {".xml"}, "Scene file of the Mitsuba 3 renderer, with PLY and OpenEXR files in a folder beside it"};
   }
 
   Result<Exported> write(const Scene& scene, const std::filesystem::path& file, const ExportOptions& options) const override {
     Exported exported;
-    auto files = SceneFiles::begin(scene, file, options, exported.diagnostics);
+    auto files = SceneFiles::begin(scene, file, options, webs_, exported.diagnostics);
     if (!files) return files.error();
     if (Status s = (*files)->add(file, options, exported.losses); !s) return s.error();
     auto written = (*files)->commit();
@@ -169,17 +172,20 @@ class MitsubaExporter : public Exporter {
     exported.files = std::move(*written);
     return exported;
   }
+
+ private:
+  MitsubaWebs webs_;
 };
 
 }  // namespace
 }  // namespace mitsuba
 
-std::unique_ptr<Exporter> make_mitsuba_exporter() { return std::make_unique<mitsuba::MitsubaExporter>(); }
+std::unique_ptr<Exporter> make_mitsuba_exporter(MitsubaWebs webs) { return std::make_unique<mitsuba::MitsubaExporter>(webs); }
 
 Result<MitsubaLightByLight> write_mitsuba_light_by_light(const Scene& scene, const std::filesystem::path& file,
-                                                         const ExportOptions& options) {
+                                                         const ExportOptions& options, MitsubaWebs webs) {
   MitsubaLightByLight result;
-  auto files = mitsuba::SceneFiles::begin(scene, file, options, result.all.diagnostics);
+  auto files = mitsuba::SceneFiles::begin(scene, file, options, webs, result.all.diagnostics);
   if (!files) return files.error();
   if (Status s = (*files)->add(file, options, result.all.losses); !s) return s.error();
   std::vector<std::uint32_t> lit = options.lit;

@@ -9,7 +9,10 @@
 
 namespace etendue {
 
-std::unique_ptr<Exporter> make_mitsuba_exporter();
+// What Mitsuba gets of a photometric light: pictures of its web, or the web itself for our own emitter, which run_mitsuba() brings.
+enum class MitsubaWebs { pictures, themselves };
+
+std::unique_ptr<Exporter> make_mitsuba_exporter(MitsubaWebs webs = MitsubaWebs::pictures);
 
 // The scene as make_mitsuba_exporter() writes it, and beside it NAME_light_I.xml for each light I of options.lit (all, if it is empty), in
 // which that light alone emits. They name files of the same folder, and each texture and mesh is made once.
@@ -18,6 +21,6 @@ struct MitsubaLightByLight {
   std::vector<std::filesystem::path> single;  // in the order of the lights
 };
 Result<MitsubaLightByLight> write_mitsuba_light_by_light(const Scene& scene, const std::filesystem::path& file,
-                                                         const ExportOptions& options);
+                                                         const ExportOptions& options, MitsubaWebs webs = MitsubaWebs::pictures);
 
 }  // namespace etendue

@@ -1,101 +1,108 @@
-// Photometric lights as up to six projectors, one for each lit face of a cube about the light.
+// Photometric lights: a textured spot where all light goes into a cone, else up to six projectors, one for each lit face of a cube about
+// the light; or, where Mitsuba has our own emitter, the web itself.
 #include "etendue/eval.h"
-#include "etendue/intensity_web.h"
+#include "etendue/photometric_bake.h"
 #include "projector.h"
+#include "web_spot.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace etendue::mitsuba {
 namespace {
 
-// Left, up and forward of a face in the light's own frame; left x up = forward.
-struct Face {
-  Vec3d left, up, forward;
-  const char* name;
-};
-constexpr Face faces[] = {{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}, "nadir"}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, "zenith"},
-                          {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, "c0"},      {{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}, "c90"},
-                          {{0, -1, 0}, {0, 0, 1}, {-1, 0, 0}, "c180"},  {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, "c270"}};
+// Pictures are chosen so that light is off by at most this share of the peak anywhere, where a size from the fewest to the most texels can.
+constexpr double wanted = 5e-3;
+constexpr std::uint32_t fewest_texels = 128, most_texels = 1024;
 
-double cosine_at(double x, double y) { return 1 / std::sqrt(1 + x * x + y * y); }
-double intensity_at(const IntensityWeb& web, const Face& face, double x, double y) {
-  return web.towards(face.left * x + face.up * y + face.forward);
+std::string numbers(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : " ") + text_of(value);
+  return text;
 }
 
-// pi t of one face, row by row.
-class FaceTable {
- public:
-  FaceTable(const IntensityWeb& web, const Face& face, int texels) : texels_(texels) {
-    values_.reserve(static_cast<std::size_t>(texels) * static_cast<std::size_t>(texels));
-    for (int row = 0; row < texels; ++row) {
-      for (int column = 0; column < texels; ++column) {
-        const double x = centre(column), y = centre(row), cosine = cosine_at(x, y);
-        values_.push_back(intensity_at(web, face, x, y) * cosine * cosine * cosine);
-      }
-    }
-  }
+bool mirrors(WebSymmetry s, WebSymmetry one) { return s == one || s == WebSymmetry::lateral_and_vertical; }
 
-  // Bilinear interpolation, clamped at the border, sends the texels' sum over all of the face: d omega = cos^3 dx dy.
-  double flux() const {
-    double sum = 0;
-    for (const double value : values_) sum += value;
-    return sum * 4 / (static_cast<double>(texels_) * texels_);
-  }
+// web_emitter.py says what its parameters mean.
+Status write_plugin(Writer& writer, const LightEntry& entry, const IntensityWeb& web, const Rgb& factor) {
+  const std::vector<double>& polar = web.polar().nodes();
+  std::vector<double> azimuth = web.azimuth().nodes();
+  if (azimuth.empty()) azimuth = {0};
+  std::vector<float> table;
+  table.reserve(polar.size() * azimuth.size() * 3);
+  for (std::size_t j = 0; j < azimuth.size(); ++j)
+    for (std::size_t i = 0; i < polar.size(); ++i)
+      for (int c = 0; c < 3; ++c) table.push_back(static_cast<float>(factor[c] * web.node(j, i)));
+  Result<std::string> file =
+      writer.assets.add_picture(static_cast<std::uint32_t>(polar.size()), static_cast<std::uint32_t>(azimuth.size()), std::move(table));
+  if (!file) return file.error();
+  pugi::xml_node emitter = add_plugin(writer.root, "emitter", "etendue_web", entry.id);
+  const bool type_a = web.type() == WebType::a;
+  constexpr double never = 1e9;
+  add_string(emitter, "filename", *file);
+  add_string(emitter, "polar", numbers(polar));
+  add_string(emitter, "azimuth", numbers(azimuth));
+  add_string(emitter, "type", std::string(name_of(web.type())));
+  add_float(emitter, "turn", web.frame().turn_deg);
+  add_boolean(emitter, "clockwise", web.frame().clockwise);
+  add_float(emitter, "half", web.type() == WebType::c && web.copies() > 1 ? 180 : never);
+  add_float(emitter, "quarter", web.symmetry() == WebSymmetry::quadrant ? 90 : never);
+  add_boolean(emitter, "mirror_polar", mirrors(web.symmetry(), type_a ? WebSymmetry::vertical : WebSymmetry::lateral));
+  add_boolean(emitter, "mirror_azimuth", mirrors(web.symmetry(), type_a ? WebSymmetry::lateral : WebSymmetry::vertical));
+  add_matrix(emitter, "to_world", entry.light.transform.rigid());
+  return Done{};
+}
 
-  // Largest difference in cd half-way between texels, where bilinear interpolation is furthest off, and on the border.
-  double error(const IntensityWeb& web, const Face& face) const {
-    double worst = 0;
-    for (int row = 0; row <= texels_; ++row) {
-      for (int column = 0; column <= texels_; ++column) {
-        const double x = 1 - 2.0 * column / texels_, y = 1 - 2.0 * row / texels_, cosine = cosine_at(x, y);
-        const double sent = (at(row - 1, column - 1) + at(row - 1, column) + at(row, column - 1) + at(row, column)) / 4;
-        worst = std::max(worst, std::abs(sent / (cosine * cosine * cosine) - intensity_at(web, face, x, y)));
-      }
-    }
-    return worst;
-  }
+void report(Writer& writer, const LightEntry& entry, const std::string& what, double error_cd, const IntensityWeb& web) {
+  const double percent = std::ceil(1e5 * error_cd / web.max_cd()) / 1e3;
+  writer.losses.add(name_for_losses(entry.light) + ": photometric web",
+                    what + ": off by up to " + text_of(percent) + " % of the peak, its flux is kept");
+}
 
-  std::vector<float> texture(const Rgb& rgb) const {
-    std::vector<float> pixels;
-    pixels.reserve(values_.size() * 3);
-    for (const double value : values_)
-      for (int c = 0; c < 3; ++c) pixels.push_back(static_cast<float>(rgb[c] * value / pi));
-    return pixels;
+// Columns and rows of a face's picture run as Mitsuba's projector wants them; it sends pi t / cos^3 for a value of t, and texels hold I
+// cos^3.
+Status write_cube(Writer& writer, const LightEntry& entry, const IntensityWeb& web, const Rgb& factor, const WebBake& cube) {
+  const Transform& frame = entry.light.transform;
+  const std::size_t texels = std::size_t{cube.width} * cube.height;
+  for (std::uint32_t i = 0; i < cube.pictures; ++i) {
+    const double flux = cube.flux_of_picture(i);
+    if (!(flux > 0)) continue;
+    std::vector<float> rgb;
+    rgb.reserve(texels * 3);
+    for (const float value : std::span(cube.values).subspan(i * texels, texels))
+      for (int c = 0; c < 3; ++c) rgb.push_back(static_cast<float>(factor[c] * value / pi));
+    Result<std::string> file = writer.assets.add_picture(cube.width, cube.height, std::move(rgb));
+    if (!file) return file.error();
+    const CubeFace& face = cube_faces()[i];
+    const Transform to_world{{frame.vector(face.left), frame.vector(face.up), frame.vector(face.forward)}, frame.translation};
+    pugi::xml_node projector = add_projector(writer, entry.id + "_" + face.name, *file, pi / 2, to_world);
+    put_texels_on_edges(projector.child("texture"), cube.width);
+    add_float(projector, "sampling_weight", flux / cube.flux_lm);
   }
+  report(writer, entry, "six faces of " + std::to_string(cube.width) + " texels a side", cube.error_cd, web);
+  return Done{};
+}
 
- private:
-  double centre(int i) const { return 1 - 2 * (i + 0.5) / texels_; }
-  double at(int row, int column) const {
-    return values_[static_cast<std::size_t>(std::clamp(row, 0, texels_ - 1)) * static_cast<std::size_t>(texels_) +
-                   static_cast<std::size_t>(std::clamp(column, 0, texels_ - 1))];
-  }
-  int texels_;
-  std::vector<double> values_;
-};
-
-// The smallest faces whose light is off by at most .5 % of the peak anywhere, up to 1024 texels. Where a table ends brightly, its edge is
-// blurred by a texel of any size: more of them are no better.
-struct Cube {
-  int texels = 0;
-  double error_cd = 0, flux_lm = 0;
-  std::vector<FaceTable> tables;
-};
-Cube cube_of(const IntensityWeb& web) {
-  constexpr double wanted = 5e-3;
-  constexpr int fewest = 128, most = 1024;
-  Cube cube;
-  double coarser_cd = HUGE_VAL;
-  for (int texels = fewest; texels <= most; texels *= 2) {
-    cube = {texels, 0, 0, {}};
-    for (const Face& face : faces) {
-      const FaceTable& table = cube.tables.emplace_back(web, face, texels);
-      cube.flux_lm += table.flux();
-      cube.error_cd = std::max(cube.error_cd, table.error(web, face));
-    }
-    if (cube.error_cd <= wanted * web.max_cd() || cube.error_cd > 0.9 * coarser_cd) break;
-    coarser_cd = cube.error_cd;
-  }
-  return cube;
+Status write_spot(Writer& writer, const LightEntry& entry, const IntensityWeb& web, const Rgb& factor, const WebSpot& spot) {
+  std::vector<float> rgb;
+  rgb.reserve(spot.shares.size() * 3);
+  for (const float share : spot.shares)
+    for (int c = 0; c < 3; ++c) rgb.push_back(share);
+  Result<std::string> file = writer.assets.add_picture(spot.texels, spot.texels, std::move(rgb));
+  if (!file) return file.error();
+  pugi::xml_node emitter = add_plugin(writer.root, "emitter", "spot", entry.id);
+  add_rgb(emitter, "intensity", factor * spot.peak_cd);
+  pugi::xml_node bitmap = add_clamped_bitmap(emitter, "texture", *file);
+  add_boolean(bitmap, "raw", true);
+  put_texels_on_edges(bitmap, spot.texels);
+  const double cutoff_deg = spot.outer_rad * 180 / pi;
+  add_float(emitter, "cutoff_angle", cutoff_deg);
+  add_float(emitter, "beam_width", cutoff_deg * (1 - 1e-6));
+  add_matrix(emitter, "to_world", facing_forward(entry.light.transform));
+  report(writer, entry,
+         "one spot of " + text_of(std::round(100 * cutoff_deg) / 100) + " deg with " + std::to_string(spot.texels) + " texels a side",
+         spot.error_cd, web);
+  return Done{};
 }
 
 }  // namespace
@@ -108,28 +115,16 @@ Status write_photometric(Writer& writer, const LightEntry& entry) {
   const auto& punctual = std::get<eval::PunctualEmitter>(emitter->shape);
   const IntensityWeb& web = *std::get<eval::ProfileShape>(punctual.shape).web;
   if (!(web.flux_lm() > 0)) return Done{};
-  const Cube cube = cube_of(web);
-  if (!(cube.flux_lm > 0))
+  if (writer.webs == MitsubaWebs::themselves) return write_plugin(writer, entry, web, punctual.intensity);
+
+  const double wanted_cd = wanted * web.max_cd();
+  const std::optional<WebSpot> spot = web_spot(web, wanted_cd, fewest_texels, most_texels);
+  if (spot && spot->error_cd <= wanted_cd) return write_spot(writer, entry, web, punctual.intensity, *spot);
+  const Result<WebBake> cube = bake_within(web, BakeLayout::cube, wanted_cd, fewest_texels, most_texels);
+  if (spot && !(cube && cube->error_cd < spot->error_cd)) return write_spot(writer, entry, web, punctual.intensity, *spot);
+  if (!cube)
     return unsupported("light '" + entry.light.name + "' has a beam narrower than the texels of a cube about it", entry.light.source);
-  // Texels are samples, not means: the whole is brought back to its flux.
-  const double correction = web.flux_lm() / cube.flux_lm;
-  const Transform& frame = entry.light.transform;
-  for (std::size_t i = 0; i < cube.tables.size(); ++i) {
-    const FaceTable& table = cube.tables[i];
-    const Face& face = faces[i];
-    if (!(table.flux() > 0)) continue;
-    const auto texels = static_cast<std::uint32_t>(cube.texels);
-    Result<std::string> file = writer.assets.add_picture(texels, texels, table.texture(punctual.intensity * correction));
-    if (!file) return file.error();
-    const Transform to_world{{frame.vector(face.left), frame.vector(face.up), frame.vector(face.forward)}, frame.translation};
-    pugi::xml_node projector = add_projector(writer, entry.id + "_" + face.name, *file, pi / 2, to_world);
-    add_float(projector, "sampling_weight", table.flux() / cube.flux_lm);
-  }
-  const double off = cube.error_cd * correction + web.max_cd() * std::abs(correction - 1);
-  writer.losses.add(name_for_losses(entry.light) + ": photometric web",
-                    "six faces of " + std::to_string(cube.texels) + " texels a side: off by up to " +
-                        text_of(std::round(1e5 * off / web.max_cd()) / 1e3) + " % of the peak, its flux is kept");
-  return Done{};
+  return write_cube(writer, entry, web, punctual.intensity, *cube);
 }
 
 }  // namespace etendue::mitsuba

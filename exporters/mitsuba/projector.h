@@ -29,6 +29,9 @@ std::vector<float> tabulate(std::uint32_t width, std::uint32_t height, double x_
 Rgb projector_value(const Rgb& intensity, double x, double y);
 
 pugi::xml_node add_clamped_bitmap(pugi::xml_node parent, const char* name, const std::string& file);
+// Moves the outermost texel centres of a square bitmap onto its edges, u' = (1/2 + (n - 1) u) / n: bilinear interpolation then reaches the
+// edge of a projector's field, beyond which it sends nothing, instead of stopping half a texel before.
+void put_texels_on_edges(pugi::xml_node bitmap, std::uint32_t texels);
 
 // The emitter. `to_world`: left, up and forward as columns.
 pugi::xml_node add_projector(Writer& writer, const std::string& id, const std::string& file, double fov_rad, const Transform& to_world);

@@ -73,6 +73,17 @@ pugi::xml_node add_clamped_bitmap(pugi::xml_node parent, const char* name, const
   return bitmap;
 }
 
+void put_texels_on_edges(pugi::xml_node bitmap, std::uint32_t texels) {
+  const double n = texels;
+  pugi::xml_node transform = bitmap.append_child("transform");
+  transform.append_attribute("name") = "to_uv";
+  for (const auto& [step, value] : {std::pair("scale", (n - 1) / n), std::pair("translate", 0.5 / n)}) {
+    pugi::xml_node node = transform.append_child(step);
+    node.append_attribute("x") = text_of(value).c_str();
+    node.append_attribute("y") = text_of(value).c_str();
+  }
+}
+
 pugi::xml_node add_projector(Writer& writer, const std::string& id, const std::string& file, double fov_rad, const Transform& to_world) {
   pugi::xml_node emitter = add_plugin(writer.root, "emitter", "projector", id);
   add_clamped_bitmap(emitter, "irradiance", file);

@@ -4,6 +4,7 @@
 #include "assets.h"
 #include "etendue/io.h"
 #include "etendue/scene.h"
+#include "mitsuba.h"
 #include "xml.h"
 
 #include <string>
@@ -16,7 +17,8 @@ struct Writer {
   AssetFolder& assets;
   pugi::xml_node root;
   LossReport& losses;
-  Bounds bounds;    // of the scene
+  Bounds bounds;  // of the scene
+  MitsubaWebs webs;
   double extent_m;  // length that the scene, its camera and the origin fit into: floats are as coarse as 6e-8 of it
 };
 

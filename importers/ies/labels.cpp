@@ -34,7 +34,7 @@ constexpr std::size_t most_label_lines = 4096;
 std::optional<std::string_view> tilt_value(std::string_view line) {
   std::string_view rest = trimmed(line);
   constexpr std::string_view word = "TILT";
-  if (rest.size() <= word.size()) return {};
+  if (rest.size() <= word.size() || rest.front() == '[') return {};
   for (std::size_t i = 0; i < word.size(); ++i)
     if ((rest[i] & ~0x20) != word[i]) return {};
   rest = trimmed(rest.substr(word.size()));
@@ -80,7 +80,8 @@ bool Reader::read_label(IesRecord& record, std::string_view line) {
   const std::string_view label = trimmed(line);
   if (label.starts_with('[')) {
     const std::size_t close = label.find(']');
-    if (close != std::string_view::npos) {
+    // Without a name the brackets are text: "[]TILT=NONE" must not come back as the line that ends the header.
+    if (close != std::string_view::npos && !trimmed(label.substr(1, close - 1)).empty()) {
       record.keywords.push_back({to_utf8(trimmed(label.substr(1, close - 1))), to_utf8(trimmed(label.substr(close + 1)))});
       return true;
     }
@@ -96,6 +97,8 @@ bool Reader::read_label(IesRecord& record, std::string_view line) {
 bool Reader::read_labels(IesRecord& record, std::string_view& tilt) {
   const char* p = numbers_.position();
   const char* too_long = nullptr;
+  constexpr std::size_t usual = 16;
+  record.keywords.reserve(usual);
   for (std::size_t lines = 0; p != numbers_.end(); ++lines) {
     const std::string_view line = photometric::take_line(p, numbers_.end());
     if (const auto value = tilt_value(line)) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "importers/eulumdat/eulumdat.h"
@@ -17,6 +18,19 @@ using Distribution = std::shared_ptr<const IntensityDistribution>;
 Result<PhotometricFile> read_bytes(std::span<const std::byte> bytes, const std::string& name, const PhotometricOptions& options) {
   const std::unique_ptr<Importer> ies = make_ies_importer();
   return ies->sniff(bytes) > 0 ? read_ies(bytes, name, options) : read_eulumdat(bytes, name, options);
+}
+
+// A web is evaluated as a point. A Lambertian disk of radius R gives 1 / (1 + (R / d)^2) of what its intensity at a point would: 1 % less
+// from five diameters.
+void warn_of_opening(const IntensityDistribution& distribution, const Light& light, const std::string& file, Diagnostics& found) {
+  constexpr double small_sphere_m = 0.1, diameters = 5;
+  const LuminousOpening opening = opening_of(distribution);
+  const double largest = std::max({opening.width_m, opening.length_m, opening.height_m});
+  if (!(largest > small_sphere_m)) return;
+  found.warning("OPENING_AS_POINT",
+                fmt::format("the {} of '{}', {:.4g} m at its largest, is evaluated as a point: within 1 % from {:.3g} m on",
+                            name_of(opening.shape), light.name, largest, diameters * largest),
+                {file, 0, 0, light.source});
 }
 
 Distribution read_one(const PhotometricShape& shape, const Light& light, std::uint64_t max_bytes, Diagnostics& found) {
@@ -36,6 +50,7 @@ Distribution read_one(const PhotometricShape& shape, const Light& light, std::ui
   }
   if (!file) return fail(file.error());
   found.append(file->diagnostics);
+  warn_of_opening(file->distribution, light, shape.file, found);
   return std::make_shared<const IntensityDistribution>(std::move(file->distribution));
 }
 

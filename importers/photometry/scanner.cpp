@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -91,20 +90,17 @@ std::size_t utf8_length(std::string_view text, std::size_t i) {
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (is_blank(text.front()) || is_eol(text.front()))) text.remove_prefix(1);
-  while (!text.empty() && (is_blank(text.back()) || is_eol(text.back()))) text.remove_suffix(1);
-  return text;
-}
-
 std::string squeezed(std::string_view text) {
   std::string out;
   for (const char c : text)
-    if (!is_blank(c)) out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (!is_blank(c)) out += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   return out;
 }
 
 std::string to_utf8(std::string_view text) {
+  unsigned char any = 0;
+  for (const char c : text) any |= static_cast<unsigned char>(c);
+  if (any < 0x80) return std::string(text);
   bool valid = true;
   for (std::size_t i = 0; i < text.size() && valid;) {
     const std::size_t length = utf8_length(text, i);
@@ -201,14 +197,6 @@ bool Reporter::repair(const char* code, std::string text, const char* p, std::st
   }
   diagnostics_.add({Severity::warning, code, std::move(text), where(p), std::move(hint)});
   return true;
-}
-
-std::string_view take_line(const char*& p, const char* end) {
-  const char* const begin = p;
-  while (p != end && !is_eol(*p)) ++p;
-  const std::string_view line(begin, static_cast<std::size_t>(p - begin));
-  if (p != end && *p++ == '\r' && p != end && *p == '\n') ++p;
-  return line;
 }
 
 bool review_lines(Reporter& reporter, std::string_view text, std::size_t longest) {

@@ -12,8 +12,12 @@ namespace etendue::photometric {
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
 constexpr bool is_eol(char c) { return c == '\n' || c == '\r'; }
 
-std::string_view trimmed(std::string_view text);
-// Upper case, without blanks.
+inline std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (is_blank(text.front()) || is_eol(text.front()))) text.remove_prefix(1);
+  while (!text.empty() && (is_blank(text.back()) || is_eol(text.back()))) text.remove_suffix(1);
+  return text;
+}
+// ASCII in upper case, without blanks.
 std::string squeezed(std::string_view text);
 // Valid UTF-8 as it is, anything else read as Latin-1.
 std::string to_utf8(std::string_view text);
@@ -47,7 +51,13 @@ class Reporter {
 };
 
 // The next line from p, without its end; p moves behind the end (CR LF, LF or CR).
-std::string_view take_line(const char*& p, const char* end);
+inline std::string_view take_line(const char*& p, const char* end) {
+  const char* const begin = p;
+  while (p != end && !is_eol(*p)) ++p;
+  const std::string_view line(begin, static_cast<std::size_t>(p - begin));
+  if (p != end && *p++ == '\r' && p != end && *p == '\n') ++p;
+  return line;
+}
 
 // Notes once what is unusual about the ends and lengths of the lines up to `end`; a repair if lines end in CR alone.
 [[nodiscard]] bool review_lines(Reporter& reporter, std::string_view text, std::size_t longest);

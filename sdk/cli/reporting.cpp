@@ -35,7 +35,7 @@ void Session::say(std::string_view text) const {
 }
 
 int exit_status_of(const Error& error) {
-  static constexpr std::string_view outside[] = {"MITSUBA_MISSING", "MITSUBA_FAILED", "FILE_UNWRITABLE"};
+  static constexpr std::string_view outside[] = {"MITSUBA_MISSING", "MITSUBA_VARIANT", "MITSUBA_FAILED", "FILE_UNWRITABLE"};
   if (error.code == "CANCELLED") return exit_cancelled;
   if (error.code == "USAGE") return exit_usage;
   return std::find(std::begin(outside), std::end(outside), error.code) != std::end(outside) ? exit_outside : exit_bad_input;

@@ -25,7 +25,7 @@ struct Options {
   unsigned samples = 1024, seeds = 16, threads = 0;
   ImportOptions import;
   double seconds = 0;
-  bool no_cache = false;
+  bool no_cache = false, plugins = false;
 };
 
 // A folder beside `target` that is gone when this is, whatever happened.
@@ -145,8 +145,15 @@ Result<Validation> validate_scene(Session& session, const Options& options, Scen
   export_options.camera = *camera;
   export_options.lit = *lit;
   export_options.samples = options.samples;
+  if (options.plugins && mitsuba->variant.starts_with("scalar"))
+    return Error{"MITSUBA_VARIANT",
+                 fmt::format("expected a vectorised variant for --plugins, found {}", mitsuba->variant),
+                 {},
+                 "install an LLVM library from 16 on, or leave --plugins out",
+                 {}};
   Validation validation;
-  const auto exported = write_mitsuba_light_by_light(scene, folder / "scene.xml", export_options);
+  const MitsubaWebs webs = options.plugins ? MitsubaWebs::themselves : MitsubaWebs::pictures;
+  const auto exported = write_mitsuba_light_by_light(scene, folder / "scene.xml", export_options, webs);
   if (!exported) return exported.error();
   session.diagnostics.append(exported->all.diagnostics);
   validation.losses = exported->all.losses;
@@ -297,12 +304,14 @@ void add_validate(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--mute", options->mute, "All but these lights");
   verb->add_option("--mitsuba", options->mitsuba, "The mitsuba command, its Python, or its virtual environment");
   verb->add_option("--cache", options->cache, "Folder for Mitsuba's pictures (default: the user's cache)");
+  verb->add_flag("--plugins", options->plugins, "Photometric webs in Mitsuba as they are, by our own emitter, instead of pictures of them");
   verb->add_flag("--no-cache", options->no_cache, "Render all of Mitsuba's pictures anew");
   verb->add_option("--threads", options->threads, "Of our renderer; 0: every core")->capture_default_str();
   add_limits(*verb, options->import);
   verb->footer(
       "\nExit status: 0 same, 1 differs, 4 undecided.\n\nExamples:\n  etendue validate kitchen.rig.json --out report\n"
-      "  etendue validate room.glb --max-diff 0.2% --spp 4096 --lights key,fill");
+      "  etendue validate room.glb --max-diff 0.2% --spp 4096 --lights key,fill\n"
+      "  etendue validate lamps.rig.json --plugins");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_validate(common, *options); }; });
 }
 

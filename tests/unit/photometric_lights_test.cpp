@@ -62,6 +62,23 @@ TEST_F(PhotometricLights, WhatCannotBeReadIsAnErrorThatNamesTheLight) {
   EXPECT_EQ(distribution_of(scene.lights[0]), nullptr);
 }
 
+// Five diameters of the largest side: .6 m and 3 m.
+TEST_F(PhotometricLights, AnOpeningLargerThanASmallSphereIsAPointWithAWarning) {
+  std::string wide = text;
+  wide.replace(wide.find("2 0 0 0"), 7, "2 .3 .6 0");
+  std::ofstream(folder_ / "wide.ies") << wide;
+  Scene scene;
+  scene.lights = {photometric("wide", {(folder_ / "wide.ies").string(), {}, {}}),
+                  photometric("lamp", {(folder_ / "lamp.ies").string(), {}, {}})};
+  const Diagnostics found = read_photometric_lights(scene);
+  std::vector<std::string> warnings;
+  for (const Diagnostic& d : found.all())
+    if (d.code == "OPENING_AS_POINT") warnings.push_back(d.text);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("'wide'"), std::string::npos);
+  EXPECT_NE(warnings[0].find("from 3 m on"), std::string::npos) << warnings[0];
+}
+
 // A downlight of 90 degrees lights the face ahead and the four around, and leaves the sixth out.
 TEST_F(PhotometricLights, MitsubaGetsAProjectorForEachLitFace) {
   Scene scene;

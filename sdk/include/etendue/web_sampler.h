@@ -17,7 +17,7 @@ class WebSampler {
     double cd = 0;
   };
 
-  // Keeps a reference: the web must outlive it. 12 bytes a cell of the table beside it.
+  // Keeps a reference: the web must outlive it. 16 bytes a cell of the table beside it.
   explicit WebSampler(const IntensityWeb& web);
 
   Sample sample(const Vec2d& u) const;  // u in [0, 1)^2

@@ -67,11 +67,12 @@ WebSampler::WebSampler(const IntensityWeb& web)
   if (!(sum > 0)) return;
   inverse_flux_ = 1 / web.flux_lm();
   for (double& r : running_) r /= sum;
-  const std::size_t cells = running_.size() - 1;
-  first_.resize(cells);
+  // Two parts a cell: few hold more than one border.
+  const std::size_t parts = 2 * (running_.size() - 1);
+  first_.resize(parts);
   std::uint32_t cell = 0;
-  for (std::size_t part = 0; part < cells; ++part) {
-    while (running_[cell + 1] <= static_cast<double>(part) / static_cast<double>(cells)) ++cell;
+  for (std::size_t part = 0; part < parts; ++part) {
+    while (running_[cell + 1] <= static_cast<double>(part) / static_cast<double>(parts)) ++cell;
     first_[part] = cell;
   }
 }
@@ -197,10 +198,10 @@ WebSampler::Polar WebSampler::polar_for_share(const Cell& c, double share) const
 
 WebSampler::Sample WebSampler::sample(const Vec2d& u) const {
   if (first_.empty()) return {};
-  const std::size_t cells = first_.size();
+  const std::size_t parts = first_.size();
   constexpr double below_one = 1 - 0x1p-53;  // the last border, 1, is never passed
   const double ux = std::min(u.x, below_one);
-  std::size_t cell = first_[std::min(static_cast<std::size_t>(ux * static_cast<double>(cells)), cells - 1)];
+  std::size_t cell = first_[std::min(static_cast<std::size_t>(ux * static_cast<double>(parts)), parts - 1)];
   // Whether the first border is passed is as good as random: no branch for that step.
   cell += running_[cell + 1] <= ux ? 1 : 0;
   while (running_[cell + 1] <= ux) ++cell;
