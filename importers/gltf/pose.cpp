@@ -52,12 +52,12 @@ Transform blended(const Pose& pose, const std::vector<Influences>& influences, s
     const Vec4f &j = set.joints[vertex], &w = set.weights[vertex];
     for (const auto& [joint, weight] : {std::pair{j.x, w.x}, {j.y, w.y}, {j.z, w.z}, {j.w, w.w}}) {
       if (!(weight > 0)) continue;
-      const auto index = static_cast<std::size_t>(joint);
-      if (!(index < pose.joints.size())) {
+      // A file with joints of a wrong type, which is reported, may have any number here.
+      if (!(joint >= 0 && static_cast<double>(joint) < static_cast<double>(pose.joints.size()))) {
         known = false;
         continue;
       }
-      const Transform& map = pose.joints[index];
+      const Transform& map = pose.joints[static_cast<std::size_t>(joint)];
       for (std::size_t c = 0; c < 3; ++c) sum.columns[c] += map.columns[c] * static_cast<double>(weight);
       sum.translation += map.translation * static_cast<double>(weight);
       total += weight;

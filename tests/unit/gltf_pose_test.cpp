@@ -142,6 +142,20 @@ TEST(GltfPose, WhatLeavesSinglePrecisionIsAnError) {
   }
 }
 
+// What the fuzzer found: joints as signed bytes are wrong, and a negative one must not be taken for an index.
+TEST(GltfPose, NegativeJointsAreAnError) {
+  GltfBuilder gltf = skinned();
+  gltf.primitive()["attributes"]["JOINTS_0"] =
+      gltf.accessor({{"bufferView", gltf.view<std::int8_t>({-128, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0})},
+                     {"componentType", 5120},
+                     {"count", 3},
+                     {"type", "VEC4"}});
+  const Folder folder;
+  const auto imported = read_gltf(gltf, folder);
+  ASSERT_TRUE(imported.ok());
+  EXPECT_TRUE(says(imported->diagnostics, Severity::error, "ACCESSOR_JOINTS_INDEX_OOB", "/meshes/0/primitives/0/attributes/JOINTS_0"));
+}
+
 // 200 nodes with one skin, whose matrices are many more than its joints: they are read once, or this limit would be met.
 TEST(GltfPose, NodesShareWhatASkinIs) {
   GltfBuilder gltf = skinned();
