@@ -158,8 +158,9 @@ bool Reader::read_tilt_records(photometric::NumberReader& numbers, const photome
     return fail(reporter.error("TILT_GEOMETRY", fmt::format("expected a lamp-to-luminaire geometry of 1, 2 or 3, found {}", geometry),
                                numbers.token(), "1: vertical lamp, 2: horizontal and stays so, 3: horizontal and tilts"));
   if (!numbers.read(count)) return fail(numbers.failure(reporter, "the number of tilt angles"));
-  if (!(count >= 1 && count <= static_cast<double>(numbers.bytes_left() / 4 + 1)) ||
-      count != static_cast<double>(static_cast<std::size_t>(count)))
+  // An angle and its factor take two characters each at least; nothing need follow the last.
+  const std::size_t most = numbers.bytes_left() / 4 + 1;
+  if (!(count >= 1 && count <= static_cast<double>(most)) || count != static_cast<double>(static_cast<std::size_t>(count)))
     return fail(reporter.error("COUNT_INVALID", fmt::format("expected a number of tilt angles that the file can hold, found {}", count),
                                numbers.token(), "count the angles"));
   tilt.geometry = static_cast<int>(geometry);

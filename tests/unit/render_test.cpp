@@ -143,8 +143,9 @@ TEST(Render, PixelsThatTheLightsOwnPlaneCutsAreIntegratedUpToTheKink) {
   constexpr int side = 64;
   int cut = 0;
   for (std::size_t i = 0; i < std::size_t{24} * 24; ++i) {
+    const std::size_t column = i % 24, row = i / 24;
     const auto place = [&](double u, double v) {
-      return floor_point(scene.cameras[0], options, static_cast<double>(i % 24) + u, static_cast<double>(i / 24) + v);
+      return floor_point(scene.cameras[0], options, static_cast<double>(column) + u, static_cast<double>(row) + v);
     };
     const auto faces = [&](const Vec3d& p) { return dot(p - centre, emits) > 0; };
     int corners = 0;
