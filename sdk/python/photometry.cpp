@@ -52,7 +52,7 @@ struct Web {
 };
 
 // By content where no format is named. An error begins with its place.
-Distribution read(nb::bytes data, const std::string& file, std::string_view format, std::string_view mode, std::size_t lamp_set) {
+Distribution read(const nb::bytes& data, const std::string& file, std::string_view format, std::string_view mode, std::size_t lamp_set) {
   const std::span<const std::byte> bytes(static_cast<const std::byte*>(data.data()), data.size());
   const int ies = format.empty() ? make_ies_importer()->sniff(bytes) : format == "ies" ? 1 : 0;
   const int eulumdat = format.empty() ? make_eulumdat_importer()->sniff(bytes) : format == "eulumdat" ? 1 : 0;

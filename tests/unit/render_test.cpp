@@ -153,7 +153,8 @@ TEST(Render, PixelsThatTheLightsOwnPlaneCutsAreIntegratedUpToTheKink) {
     if (corners == 0 || corners == 4) continue;
     double sum = 0, lit = 0;
     for (int k = 0; k < side * side; ++k) {
-      const Vec3d p = place((k % side + 0.5) / side, (k / side + 0.5) / side);
+      const int across = k % side, down = k / side;
+      const Vec3d p = place((across + 0.5) / side, (down + 0.5) / side);
       if (!faces(p)) continue;
       const eval::ShadingPoint point{
           p, {0, 1, 0}, {0, 1, 0}, normalised(scene.cameras[0].transform.translation - p), std::get<Conductor>(scene.materials[0].model)};

@@ -55,6 +55,7 @@ class Scanner {
     std::vector<Piece> pieces;
     scan(across, 1, pieces);
     std::vector<std::size_t> kinds;
+    kinds.reserve(pieces.size());
     for (const Piece& p : pieces) kinds.push_back(p.kind);
     return kinds;
   }
@@ -196,7 +197,8 @@ std::map<std::size_t, std::vector<Vec2d>> places_by_kind(Scanner& scanner, Rando
   constexpr int cells = 12;
   std::map<std::size_t, std::vector<Vec2d>> places;
   for (int i = 0; i < cells * cells; ++i) {
-    const Vec2d place{(i % cells + random.next()) / cells, (i / cells + random.next()) / cells};
+    const int column = i % cells, row = i / cells;
+    const Vec2d place{(column + random.next()) / cells, (row + random.next()) / cells};
     places[scanner.kind_in_pixel(place.x, place.y)].push_back(place);
   }
   return places;
