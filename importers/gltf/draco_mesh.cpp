@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accessors.h"
+#include "json_values.h"
 
 #ifdef ETENDUE_DRACO
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
@@ -133,7 +135,7 @@ std::vector<float> numbers_of(const draco::PointAttribute& attribute, std::size_
 bool draco_is_built() { return true; }
 
 Result<DracoMesh> decode_draco(Asset& asset, const nlohmann::json& extension, const std::string& pointer) {
-  const auto bytes = asset.view(static_cast<int>(number_or(extension, "bufferView", -1)));
+  const auto bytes = asset.view(int_index_of(extension, "bufferView"));
   if (!bytes) return bytes.error();
   const auto decoded_mesh = decoded(asset, *bytes, pointer);
   if (!decoded_mesh) return decoded_mesh.error();
@@ -146,7 +148,8 @@ Result<DracoMesh> decode_draco(Asset& asset, const nlohmann::json& extension, co
   const auto names = extension.find("attributes");
   if (names == extension.end() || !names->is_object()) return out;
   for (const auto& [name, id] : names->items()) {
-    const draco::PointAttribute* attribute = id.is_number_unsigned() ? mesh.GetAttributeByUniqueId(id.get<std::uint32_t>()) : nullptr;
+    const bool is_id = id.is_number_integer() && id.get<double>() >= 0 && id.get<double>() <= std::numeric_limits<std::uint32_t>::max();
+    const draco::PointAttribute* attribute = is_id ? mesh.GetAttributeByUniqueId(id.get<std::uint32_t>()) : nullptr;
     const std::size_t width = attribute != nullptr ? static_cast<std::size_t>(attribute->num_components()) : 0;
     if (width < 1 || width > 4)
       return asset.failure("DRACO_INVALID", fmt::format("the compressed mesh has no attribute {} of 1 to 4 components", id.dump()),

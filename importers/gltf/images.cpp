@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "json_values.h"
 #include "materials.h"
 #include "uri.h"
 
@@ -21,7 +22,7 @@ Result<ImageRef> read_image(Asset& asset, const nlohmann::json& source, const st
     return asset.failure("INVALID_IMAGE", "expected either uri or bufferView", pointer);
   if (source.contains("bufferView")) {
     if (!wanted) return image;
-    auto bytes = asset.view(static_cast<int>(number_or(source, "bufferView", -1)));
+    auto bytes = asset.view(int_index_of(source, "bufferView"));
     if (!bytes) return bytes.error();
     image.embedded = std::move(*bytes);
   } else if (is_data_uri(uri)) {

@@ -1,6 +1,7 @@
 #include "json_values.h"
 
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -43,6 +44,11 @@ std::optional<std::uint64_t> uint_of(const Json& object, const char* key) {
 std::int64_t index_of(const Json& object, const char* key) {
   const auto found = uint_of(object, key);
   return found ? static_cast<std::int64_t>(*found) : -1;
+}
+
+int int_index_of(const Json& object, const char* key, int otherwise) {
+  const auto found = uint_of(object, key);
+  return found && *found <= std::numeric_limits<int>::max() ? static_cast<int>(*found) : otherwise;
 }
 
 const std::string* text_of(const Json& object, const char* key) {

@@ -23,6 +23,8 @@ std::string shown(const Json& value);
 std::optional<std::uint64_t> uint_of(const Json& object, const char* key);
 // A member that may be an index; -1 if it is none.
 std::int64_t index_of(const Json& object, const char* key);
+// The same as an int, which tinygltf's indices are: one that is none, or beyond, is `otherwise`.
+int int_index_of(const Json& object, const char* key, int otherwise = -1);
 // A member that is a string; nullptr if there is none.
 const std::string* text_of(const Json& object, const char* key);
 

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "json_values.h"
 #include "uri.h"
 
 namespace etendue::gltf {
 namespace {
-
-using Json = nlohmann::json;
 
 const Json* light_at(const Asset& asset, const char* extension, int index, std::string& pointer) {
   pointer = fmt::format("/extensions/{}/lights/{}", extension, index);
@@ -50,14 +50,12 @@ std::optional<Shape> spot_shape(Asset& asset, const Json& source, const std::str
   return SpotShape{inner, std::min(outer, pi / 2)};
 }
 
-int light_index(const Json& use) { return static_cast<int>(std::clamp(number_or(use, "light", -1), -1.0, 2147483647.0)); }
-
 // A photometric file: named, or its text inside the asset.
 Result<PhotometricShape> profile_of(Asset& asset, const Json& source, const std::string& pointer) {
   if (source.contains("bufferView") == source.contains("uri"))
     return asset.failure("ONE_OF_MISMATCH", "expected either uri or bufferView", pointer);
   if (source.contains("bufferView")) {
-    auto bytes = asset.view(static_cast<int>(number_or(source, "bufferView", -1)));
+    auto bytes = asset.view(int_index_of(source, "bufferView"));
     if (!bytes) return bytes.error();
     return PhotometricShape{"", std::move(*bytes)};
   }
@@ -76,7 +74,7 @@ Result<PhotometricShape> profile_of(Asset& asset, const Json& source, const std:
 
 std::optional<Light> punctual_light(Asset& asset, const Json& use, const Transform& node_to_world) {
   std::string pointer;
-  const Json* source = light_at(asset, "KHR_lights_punctual", light_index(use), pointer);
+  const Json* source = light_at(asset, "KHR_lights_punctual", int_index_of(use, "light"), pointer);
   if (source == nullptr) return std::nullopt;
   Light light = common_light(*source, pointer, node_to_world);
   const std::string type = text_or(*source, "type", "");
@@ -106,7 +104,7 @@ std::optional<Light> punctual_light(Asset& asset, const Json& use, const Transfo
 
 std::optional<Light> area_light(Asset& asset, const Json& use, const Transform& node_to_world) {
   std::string pointer;
-  const Json* source = light_at(asset, "EXT_lights_area", light_index(use), pointer);
+  const Json* source = light_at(asset, "EXT_lights_area", int_index_of(use, "light"), pointer);
   if (source == nullptr) return std::nullopt;
   Light light = common_light(*source, pointer, node_to_world);
   const std::string type = text_or(*source, "type", "");
@@ -133,7 +131,7 @@ std::optional<Light> area_light(Asset& asset, const Json& use, const Transform& 
 // not.
 std::optional<Light> ies_light(Asset& asset, const Json& use, const Transform& node_to_world) {
   std::string pointer;
-  const Json* source = light_at(asset, "EXT_lights_ies", light_index(use), pointer);
+  const Json* source = light_at(asset, "EXT_lights_ies", int_index_of(use, "light"), pointer);
   if (source == nullptr) return std::nullopt;
   auto shape = profile_of(asset, *source, pointer);
   if (!shape) {
@@ -154,7 +152,8 @@ std::vector<int> image_based_cube(Asset& asset, int index) {
   if (source == nullptr || !source->contains(finest) || !source->at(finest).is_array() || source->at(finest).size() != 6) return {};
   std::vector<int> images;
   for (const Json& image : source->at(finest))
-    if (image.is_number_integer()) images.push_back(image.get<int>());
+    if (image.is_number_integer() && image.get<double>() >= 0 && image.get<double>() <= std::numeric_limits<int>::max())
+      images.push_back(image.get<int>());
   asset.warning("NOT_SHOWN", "an environment in the form of a cube: a reference, from which no light comes in pictures", pointer);
   return images;
 }

@@ -1,5 +1,7 @@
 #include "meshopt.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -47,12 +49,12 @@ bool decode(const std::string& mode, const std::string& filter, std::size_t stri
 bool meshopt_is_built() { return true; }
 
 Result<SharedBytes> decode_meshopt(Asset& asset, const nlohmann::json& extension, const SharedBytes& source, const std::string& pointer) {
-  const double authored_stride = number_or(extension, "byteStride", 0), authored_count = number_or(extension, "count", 0);
+  const std::uint64_t authored_stride = uint_of(extension, "byteStride").value_or(0),
+                      authored_count = uint_of(extension, "count").value_or(0);
   const std::string mode = text_or(extension, "mode", ""), filter = text_or(extension, "filter", "NONE");
-  const double bytes = authored_stride * authored_count;
-  if (!(authored_stride >= 0 && authored_count >= 0 && bytes <= largest_integer))
-    return asset.failure("MESHOPT_INVALID", "expected a count and a byteStride whose product is a size", pointer);
-  if (auto room = asset.claim_decoded(static_cast<std::uint64_t>(bytes), pointer); !room) return room.error();
+  constexpr std::uint64_t most = UINT64_MAX / 2;
+  const std::uint64_t bytes = authored_count > most / std::max<std::uint64_t>(authored_stride, 1) ? most : authored_stride * authored_count;
+  if (auto room = asset.claim_decoded(bytes, pointer); !room) return room.error();
   const auto stride = static_cast<std::size_t>(authored_stride), count = static_cast<std::size_t>(authored_count);
   if (const char* fault = fault_of(mode, filter, stride, count)) return asset.failure("MESHOPT_INVALID", fault, pointer);
   std::vector<std::uint8_t> out(stride * count);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "json_values.h"
 #include "lights.h"
 
 namespace etendue::gltf {
@@ -112,7 +113,7 @@ void Nodes::add_lights(int index, const Transform& to_world) {
 void Nodes::add_environment() {
   const nlohmann::json* extension = asset_.extension(fmt::format("/scenes/{}", tree_.scene()), "EXT_lights_image_based");
   if (extension == nullptr) return;
-  const int index = static_cast<int>(number_or(*extension, "light", -1));
+  const int index = int_index_of(*extension, "light");
   const auto cube = image_based_cube(asset_, index);
   std::vector<std::uint32_t> faces;
   for (const int image : cube)

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accessors.h"
+#include "json_values.h"
 
 namespace etendue::gltf {
 namespace {
@@ -97,8 +98,8 @@ std::vector<Transform> joints_of(Asset& asset, NodeTree& tree, int skin) {
   if (!asset.json().contains(place) || !asset.json().at(place).is_array()) return {};
   const nlohmann::json& joints = asset.json().at(place);
   std::vector<float> matrices;
-  if (const double accessor = number_or(asset.json().at(place.parent_pointer()), "inverseBindMatrices", -1); accessor >= 0) {
-    auto read = read_numbers(asset, static_cast<int>(accessor), 16);
+  if (const int accessor = int_index_of(asset.json().at(place.parent_pointer()), "inverseBindMatrices"); accessor >= 0) {
+    auto read = read_numbers(asset, accessor, 16);
     if (!read) {
       asset.error(read.error());
       return {};

@@ -5,12 +5,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "json_values.h"
 #include "materials.h"
 
 namespace etendue::gltf {
 namespace {
-
-using Json = nlohmann::json;
 
 Wrap wrap_of(int mode) {
   return mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clamp
@@ -26,7 +25,7 @@ void apply_transform(const Json& transform, Texture& out) {
   const double matrix[2][3] = {{c * scale_u, s * scale_v, number_or(transform, "offset", 0, 0)},
                                {-s * scale_u, c * scale_v, number_or(transform, "offset", 1, 0)}};
   for (int row = 0; row < 2; ++row) std::copy(matrix[row], matrix[row] + 3, out.uv_transform[row]);
-  out.uv_set = static_cast<int>(number_or(transform, "texCoord", out.uv_set));
+  out.uv_set = int_index_of(transform, "texCoord", out.uv_set);
 }
 
 }  // namespace
@@ -44,7 +43,7 @@ std::optional<std::uint32_t> Materials::image_of(int texture) {
   for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu", "EXT_texture_avif"}) {
     const Json* extension = asset_.extension(pointer, name);
     if (extension == nullptr) continue;
-    const auto kept = image(static_cast<int>(number_or(*extension, "source", -1)));
+    const auto kept = image(int_index_of(*extension, "source"));
     if (std::string_view(name) == "EXT_texture_webp") webp = kept;
     if (core < 0 && !webp)
       asset_.warning("NOT_REPRESENTED",
@@ -70,7 +69,7 @@ std::optional<Texture> Materials::texture(const Json& object, const std::string&
   Texture out;
   out.image = *image_index;
   out.encoding = encoding;
-  out.uv_set = static_cast<int>(number_or(*info, "texCoord", 0));
+  out.uv_set = int_index_of(*info, "texCoord", 0);
   const tinygltf::Texture& source = model.textures[static_cast<std::size_t>(index)];
   if (source.sampler >= 0 && static_cast<std::size_t>(source.sampler) < model.samplers.size()) {
     const tinygltf::Sampler& sampler = model.samplers[static_cast<std::size_t>(source.sampler)];

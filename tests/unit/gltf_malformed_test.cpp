@@ -4,6 +4,7 @@
 #include <random>
 
 #include "gltf_builder.h"
+#include "source_dir.h"
 
 namespace etendue::test {
 namespace {
@@ -252,6 +253,26 @@ TEST(GltfMalformed, DeepNestingIsRefused) {
   const auto chain = read_gltf(gltf, folder);
   ASSERT_TRUE(chain.ok());
   EXPECT_TRUE(says(chain->diagnostics, Severity::error, "LIMIT_EXCEEDED", "/nodes/256"));
+}
+
+// Wherever the documents have a number, one that no integer holds and one that wraps to 0 in 32 bits. Under the sanitizers this finds every
+// conversion that is not asked for its range first.
+TEST(GltfMalformed, NumbersBeyondEveryInteger) {
+  const Folder folder;
+  for (const char* name : {"everything.gltf", "draco.gltf"}) {
+    std::ifstream stream(source_dir() / "tests/fuzz/corpus/gltf" / name);
+    const Json document = Json::parse(stream);
+    for (const auto& [pointer, value] : document.flatten().items()) {
+      if (!value.is_number()) continue;
+      for (const double number : {1e300, -1e300, 4294967296.0}) {
+        Json changed = document;
+        changed[Json::json_pointer(pointer)] = number;
+        const auto imported = read_gltf(folder.write(name, changed.dump()));
+        const bool is_free = !imported.ok() || imported->diagnostics.has_errors() || !validate(imported->scene).has_errors();
+        EXPECT_TRUE(is_free) << pointer << " " << number;
+      }
+    }
+  }
 }
 
 // A byte order mark is an error of a glTF, not a reason to take it for something else; a letter is no reason to take a text for a GLB.
