@@ -261,15 +261,15 @@ TEST(GltfMalformed, NumbersBeyondEveryInteger) {
   const Folder folder;
   for (const char* name : {"everything.gltf", "draco.gltf"}) {
     std::ifstream stream(source_dir() / "tests/fuzz/corpus/gltf" / name);
-    const Json document = Json::parse(stream);
-    for (const auto& [pointer, value] : document.flatten().items()) {
+    const Json document = Json::parse(stream), flat = document.flatten();
+    for (const auto& [pointer, value] : flat.items()) {
       if (!value.is_number()) continue;
       for (const double number : {1e300, -1e300, 4294967296.0}) {
         Json changed = document;
         changed[Json::json_pointer(pointer)] = number;
         const auto imported = read_gltf(folder.write(name, changed.dump()));
-        const bool is_free = !imported.ok() || imported->diagnostics.has_errors() || !validate(imported->scene).has_errors();
-        EXPECT_TRUE(is_free) << pointer << " " << number;
+        if (!imported.ok() || imported->diagnostics.has_errors()) continue;
+        EXPECT_FALSE(validate(imported->scene).has_errors()) << pointer << " " << number;
       }
     }
   }
