@@ -63,13 +63,13 @@ bool Reader::judge_horizontal(IntensityGrid& grid, IesVersion version, const cha
 bool Reader::judge_horizontal_c(IntensityGrid& grid, IesVersion version, const char* place) {
   const std::vector<double>& h = grid.horizontal_deg;
   const double first = h.front(), last = h.back(), range = last - first;
+  if (first < -360 || last > 720 || range > 360 + 1e-6)
+    return fail("ANGLES_RANGE", fmt::format("expected horizontal angles within one turn, found {}..{}", first, last), place,
+                "a count or a number before may be missing");
   if (h.size() == 1) {
     grid.symmetry = WebSymmetry::rotational;
     return true;
   }
-  if (first < -360 || last > 720 || range > 360 + 1e-6)
-    return fail("ANGLES_RANGE", fmt::format("expected horizontal angles within one turn, found {}..{}", first, last), place,
-                "a count or a number before may be missing");
   const bool quarter_turn = std::fmod(first, 90) == 0;
   const bool standard = first == 0 || (first == 90 && last == 270 && version <= IesVersion::lm_63_1995);
   const auto as = [&](WebSymmetry symmetry) {

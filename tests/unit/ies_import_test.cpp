@@ -136,6 +136,7 @@ TEST(IesImport, BrokenFilesAreRefusedWhereTheyBreak) {
       {"BALLAST_RECORD_MISSING", replaced(clean, ".9 1 50\r\n", ""), 10, 1},
       {"ANGLES_NOT_INCREASING", replaced(clean, "0 45 90", "0 45 45"), 11, 6},
       {"ANGLES_RANGE", replaced(clean, "0 45 90", "0 45 190"), 11, 6},
+      {"ANGLES_RANGE", replaced(replaced(clean, "3 2 1 2", "3 1 1 2"), "\r\n0 90\r\n100 50 10\r\n", "\r\n2701\r\n"), 12, 1},
       {"HORIZONTAL_RANGE", replaced(clean, "\r\n0 90\r\n", "\r\n0 80\r\n"), 12, 3},
       {"CANDELA_NEGATIVE", replaced(clean, "100 40 5", "100 -40 5"), 14, 5},
   };
