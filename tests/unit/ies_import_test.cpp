@@ -9,7 +9,7 @@
 namespace etendue {
 namespace {
 
-Result<PhotometricFile> read(const std::string& text, PhotometricOptions options = {}) {
+Result<PhotometricFile> read(const std::string& text, const PhotometricOptions& options = {}) {
   return read_ies(std::as_bytes(std::span(text)), "lamp.ies", options);
 }
 
@@ -98,7 +98,10 @@ TEST(IesImport, WhatSeparatesNumbersAndEndsLinesDoesNotMatter) {
   std::string commas = replaced(head + body, "100 50 10", "100,50 ,\t10"), lf = head + body,
               signs = replaced(head + body, "100 40 5", "+1.0D+02 4e1 5.");
   std::erase(lf, '\r');
-  for (const std::string& text : {commas, lf, signs, "\xEF\xBB\xBF" + head + body, head + body + "\x1a"}) {
+  std::string marked = "\xEF\xBB\xBF", ended = head + body;
+  marked.append(head).append(body);
+  ended += '\x1a';
+  for (const std::string& text : {commas, lf, signs, marked, ended}) {
     const auto file = read(text);
     ASSERT_TRUE(file) << file.error().text;
     EXPECT_EQ(file->distribution.grid.values, reference->distribution.grid.values);
