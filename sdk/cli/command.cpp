@@ -28,6 +28,7 @@ void add_common(CLI::App& app, Common& common) {
 
 int run_command(CLI::App& app, int argc, char** argv, const Run& run) {
   app.name("etendue");
+  app.set_version_flag("--version", std::string("etendue ") + ETENDUE_VERSION);
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   try {

@@ -7,6 +7,10 @@
 #include <thread>
 
 #include "comparison_text.h"
+#include "exporters/eulumdat/eulumdat.h"
+#include "exporters/ies/ies.h"
+#include "exporters/mitsuba/mitsuba.h"
+#include "exporters/rig/rig.h"
 #include "importers/photometric_lights/photometric_lights.h"
 #include "limits.h"
 #include "verbs.h"
@@ -31,6 +35,19 @@ struct Converted {
   LossReport losses;
   Diagnostics diagnostics;
 };
+
+// Every format that can be written.
+const Registry& exporters() {
+  static const Registry* const built_in = [] {
+    auto* const formats = new Registry;  // lives as long as the program
+    formats->add(make_rig_exporter());
+    formats->add(make_mitsuba_exporter());
+    formats->add(make_ies_exporter());
+    formats->add(make_eulumdat_exporter());
+    return formats;
+  }();
+  return *built_in;
+}
 
 Json to_json(const LossReport& report) {
   Json json = Json::array();
@@ -60,9 +77,9 @@ void convert_one(Converted& job, const Options& options, Size size) {
     job.error = Error{"USAGE", fmt::format("{} is there already", job.out.string()), {}, "--force replaces it", {}};
     return;
   }
-  const auto exporter = registry().exporter_for(job.out);
+  const auto exporter = exporters().exporter_for(job.out);
   if (!exporter) return void(job.error = exporter.error());
-  const auto importer = registry().importer_for(job.in);
+  const auto importer = importers().importer_for(job.in);
   if (!importer) return void(job.error = importer.error());
   Result<Imported> imported = (*importer)->read(job.in, options.import);
   if (!imported) return void(job.error = imported.error());
@@ -89,7 +106,7 @@ Result<std::vector<Converted>> jobs_of(const Options& options) {
   for (const auto& entry : fs::recursive_directory_iterator(options.in)) {
     if (!entry.is_regular_file()) continue;
     const std::string name = entry.path().filename().string();
-    for (const auto& importer : registry().importers()) {
+    for (const auto& importer : importers().importers()) {
       for (const std::string& extension : importer->describe().extensions) {
         if (!name.ends_with(extension) || name.size() == extension.size()) continue;
         const fs::path folder = fs::path(options.out) / fs::relative(entry.path().parent_path(), options.in);

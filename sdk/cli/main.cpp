@@ -6,7 +6,6 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Etendue: physical lights and materials.\n"
       "Reads light rigs and glTF, shows them in real units, writes Mitsuba 3, and compares both renderers' light.\n"};
-  app.set_version_flag("--version", std::string("etendue ") + ETENDUE_VERSION);
   app.footer(
       "\nExamples:\n"
       "  etendue info room.glb\n"

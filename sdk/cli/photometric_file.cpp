@@ -127,7 +127,7 @@ PhotometricReading read_photometric(const std::string& file, const PhotometricCh
   constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;
   const Result<std::vector<std::byte>> bytes = read_file(file, most_bytes);
   if (!bytes) return fail(bytes.error());
-  const Result<const Importer*> importer = registry().importer_for(file);
+  const Result<const Importer*> importer = importers().importer_for(file);
   if (!importer) return fail(importer.error());
   reading.format = (*importer)->describe().id;
   const bool ies = reading.format == "ies";

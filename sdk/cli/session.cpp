@@ -7,10 +7,6 @@
 #include <charconv>
 #include <cstdio>
 
-#include "exporters/eulumdat/eulumdat.h"
-#include "exporters/ies/ies.h"
-#include "exporters/mitsuba/mitsuba.h"
-#include "exporters/rig/rig.h"
 #include "importers/eulumdat/eulumdat.h"
 #include "importers/gltf/gltf.h"
 #include "importers/ies/ies.h"
@@ -62,24 +58,20 @@ bool Bar::report(std::string_view what, double fraction) {
   return !interrupted();
 }
 
-const Registry& registry() {
+const Registry& importers() {
   static const Registry* const built_in = [] {
     auto* const formats = new Registry;  // lives as long as the program
     formats->add(make_gltf_importer());
     formats->add(make_ies_importer());
     formats->add(make_eulumdat_importer());
     formats->add(make_rig_importer(*formats));
-    formats->add(make_rig_exporter());
-    formats->add(make_mitsuba_exporter());
-    formats->add(make_ies_exporter());
-    formats->add(make_eulumdat_exporter());
     return formats;
   }();
   return *built_in;
 }
 
 Result<Imported> read_asset(Session& session, const std::string& file, const ImportOptions& options) {
-  const Result<const Importer*> importer = registry().importer_for(file);
+  const Result<const Importer*> importer = importers().importer_for(file);
   if (!importer) return importer.error();
   Result<Imported> imported = (*importer)->read(file, options);
   if (!imported) return imported;

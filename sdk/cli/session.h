@@ -68,8 +68,8 @@ class Bar : public Progress {
 void catch_interrupts();
 bool interrupted();
 
-// Every format that is built in.
-const Registry& registry();
+// Every format that can be read.
+const Registry& importers();
 
 // Reads an asset with whatever importer knows it; diagnostics and stats go into the session.
 Result<Imported> read_asset(Session& session, const std::string& file, const ImportOptions& options = {});

@@ -21,7 +21,7 @@ void add_completion(CLI::App& app, Run& run);
 
 // Options that every verb takes behind it, where people write them: for all that were added so far.
 void add_common(CLI::App& app, Common& common);
-// Reads the command line and runs what the verb left in `run`; returns the exit status.
+// Adds --version, reads the command line and runs what the verb left in `run`; returns the exit status.
 int run_command(CLI::App& app, int argc, char** argv, const Run& run);
 
 }  // namespace etendue::cli
