@@ -210,7 +210,8 @@ Result<std::vector<Vector>> read(Asset& asset, int index, std::size_t width, con
   const tinygltf::Accessor& accessor = *found;
   const Format format = format_of(accessor.type, accessor.componentType);
   if (format.width() != width)
-    return asset.failure("MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT", fmt::format("expected {} elements", expected), pointer);
+    return asset.failure("MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
+                         fmt::format("not read: its record has an error, or it holds no {} elements", expected), pointer);
 
   const Layout layout{accessor.count, format.element_size(), format.component_size, accessor.byteOffset};
   const Convert put = conversion_of(accessor.componentType);

@@ -9,7 +9,7 @@ namespace {
 constexpr int i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, f32 = 5126;
 using Formats = std::map<std::string, std::vector<Format>>;
 
-std::vector<Format> of(std::vector<Shape> shapes, std::vector<int> plain, std::vector<int> normalised = {}) {
+std::vector<Format> of(const std::vector<Shape>& shapes, const std::vector<int>& plain, const std::vector<int>& normalised = {}) {
   std::vector<Format> formats;
   for (const Shape shape : shapes) {
     for (const int component : plain) formats.push_back({shape, component, false});

@@ -142,6 +142,7 @@ void use_accessor(Checks& checks, std::int64_t index, Usage usage, const Path& u
 
 std::string format_expected(const Format& found, const std::vector<Format>& allowed) {
   std::vector<std::string> names;
+  names.reserve(allowed.size());
   for (const Format& format : allowed) names.push_back(to_string(format));
   return fmt::format("expected {}, found {}", fmt::join(names, " or "), to_string(found));
 }
