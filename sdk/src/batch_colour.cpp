@@ -60,6 +60,7 @@ std::size_t PlanckianXy(const float* kelvin, const PlanckianPolynomials& polynom
     const auto t = reduced(d, k);
     const auto scale = hn::Div(hn::Set(d, 1.0f), polynomial(d, p[2], t));
     const auto x = hn::Mul(polynomial(d, p[0], t), scale), y = hn::Mul(polynomial(d, p[1], t), scale);
+    if (HWY_LIKELY(hn::AllTrue(d, valid))) return hn::StoreInterleaved2(x, y, d, to);
     hn::StoreInterleaved2(hn::IfThenElse(valid, x, hn::Set(d, where_none.x)), hn::IfThenElse(valid, y, hn::Set(d, where_none.y)), d, to);
     without += hn::CountTrue(d, hn::Not(valid));
   });
@@ -78,9 +79,10 @@ std::size_t PlanckianRgb(const float* kelvin, const PlanckianPolynomials& polyno
     const auto r = polynomial(d, p[0], t), g = polynomial(d, p[1], t), b = polynomial(d, p[2], t);
     const auto luminance = hn::MulAdd(r, hn::Set(d, 0.2126f), hn::MulAdd(g, hn::Set(d, 0.7152f), hn::Mul(b, hn::Set(d, 0.0722f))));
     const auto scale = hn::Div(hn::Set(d, 1.0f), luminance);
-    store(d, hn::IfThenElse(valid, hn::Mul(r, scale), hn::Set(d, where_none.x)),
-          hn::IfThenElse(valid, hn::Mul(g, scale), hn::Set(d, where_none.y)),
-          hn::IfThenElse(valid, hn::Mul(b, scale), hn::Set(d, where_none.z)), to);
+    const auto red = hn::Mul(r, scale), green = hn::Mul(g, scale), blue = hn::Mul(b, scale);
+    if (HWY_LIKELY(hn::AllTrue(d, valid))) return store(d, red, green, blue, to);
+    store(d, hn::IfThenElse(valid, red, hn::Set(d, where_none.x)), hn::IfThenElse(valid, green, hn::Set(d, where_none.y)),
+          hn::IfThenElse(valid, blue, hn::Set(d, where_none.z)), to);
     without += hn::CountTrue(d, hn::Not(valid));
   });
   return without;
