@@ -89,8 +89,8 @@ class InfluenceCheck {
         }
       }
     if (twice) faults.joint_twice.add(vertex);
-    const double pairs = static_cast<double>((used_.size() + 1) / 2);
-    if (!(std::abs(static_cast<double>(sum) - 1) <= step * (pairs - 1))) faults.sum.add(vertex);
+    const std::size_t pairs = (used_.size() + 1) / 2;
+    if (!(std::abs(static_cast<double>(sum) - 1) <= step * (static_cast<double>(pairs) - 1))) faults.sum.add(vertex);
   }
 
   void report(const Faults& faults) {

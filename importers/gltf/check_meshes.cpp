@@ -143,7 +143,7 @@ class PrimitiveCheck {
         sets.push_back(uint_of(value, "texCoord").value_or(0));
         const Json& transform = object_at(object_at(value, "extensions"), "KHR_texture_transform");
         if (const auto other = uint_of(transform, "texCoord")) sets.push_back(*other);
-      } else if (!std::string_view(key).starts_with("KHR_") || checks_.declares(key.c_str())) {
+      } else if (!std::string_view(key).starts_with("KHR_") || checks_.declares(key)) {
         collect_texcoords(value, sets);
       }
     }

@@ -122,10 +122,11 @@ void find_loops(Checks& checks, const Path& path) {
       for (auto member = std::find(way.begin(), way.end(), static_cast<std::size_t>(at)); member != way.end(); ++member)
         checks.findings.error("NODE_LOOP", fmt::format("node {} is its own ancestor", *member), path / *member);
     }
-    for (auto node = way.rbegin(); node != way.rend(); ++node) {
-      state[*node] = 2;
-      const std::int64_t parent = parents[*node];
-      if (parent >= 0) checks.depths[*node] = checks.depths[static_cast<std::size_t>(parent)] + 1;
+    std::reverse(way.begin(), way.end());
+    for (const std::size_t node : way) {
+      state[node] = 2;
+      const std::int64_t parent = parents[node];
+      if (parent >= 0) checks.depths[node] = checks.depths[static_cast<std::size_t>(parent)] + 1;
     }
   }
 }
