@@ -1,6 +1,7 @@
 // A light as another program states it.
 #include <fmt/format.h>
 
+#include "article.h"
 #include "etendue/dialect.h"
 #include "number_text.h"
 #include "units.h"
@@ -39,7 +40,7 @@ Result<Light> light_of(const WrittenQuantity& w, const LightSetup& setup) {
       light.emission.given = Given::ev;
       return light;
     default:
-      return Error{"DIMENSION_MISMATCH", fmt::format("expected a quantity of a light, found a {}", name_of(d)), {}, {}, {}};
+      return Error{"DIMENSION_MISMATCH", fmt::format("expected a quantity of a light, found {}", with_article(name_of(d))), {}, {}, {}};
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "article.h"
 #include "etendue/light_presets.h"
 #include "number_text.h"
 #include "units.h"
@@ -76,7 +77,7 @@ class Sizes {
     for (const auto& [name, text] : sizes_)
       if (!text.empty() && std::find(taken_.begin(), taken_.end(), name) == taken_.end())
         return error("OPTION_UNUSED", shape_.empty() ? fmt::format("--{} belongs to a --shape, found none", name)
-                                                     : fmt::format("--{} says nothing about a {}", name, shape_));
+                                                     : fmt::format("--{} says nothing about {}", name, with_article(shape_)));
     return {};
   }
 

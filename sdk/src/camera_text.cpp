@@ -1,5 +1,6 @@
 #include "camera_text.h"
 
+#include "article.h"
 #include "parameter_error.h"
 
 namespace etendue {
@@ -70,7 +71,7 @@ Status take_counted(CameraSettings& camera, bool& compensated, Cursor& cursor) {
       camera.compensation_stop = si;
       return Done{};
     default:
-      return at.error("DIMENSION_MISMATCH", fmt::format("expected a camera setting, found a {}", name_of(unit->dimension)));
+      return at.error("DIMENSION_MISMATCH", fmt::format("expected a camera setting, found {}", with_article(name_of(unit->dimension))));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "etendue/convert.h"
 
+#include "article.h"
 #include "etendue/temperature.h"
 #include "light_ratio.h"
 #include "parameter_error.h"
@@ -65,7 +66,7 @@ Result<Wide> ratio_between(Dimension given, Dimension wanted, const LightSetup& 
     if (given == Dimension::luminance && wanted == Dimension::luminous_exitance) return wide_pi;
     if (given == Dimension::luminous_exitance && wanted == Dimension::luminance) return 1 / wide_pi;
     return parameter_error("shape", "SHAPE_MISSING",
-                           fmt::format("what {} a {} makes depends on the light's shape", name_of(wanted), name_of(given)),
+                           fmt::format("what {} {} makes depends on the light's shape", name_of(wanted), with_article(name_of(given))),
                            "say what the light is: a point, a spot, a sphere of some radius, ...");
   }
   const Result<Wide> divisor = std::visit(RatioOf{given, setup, setup.given_distance_m}, *setup.shape);
@@ -78,7 +79,7 @@ Result<Wide> ratio_between(Dimension given, Dimension wanted, const LightSetup& 
 
 Error of_shape(Error found, Dimension quantity, const LightSetup& setup) {
   if (found.code != "SHAPE_MISSING" && setup.shape)
-    found.text = fmt::format("{} of a {} light: {}", name_of(quantity), name_of(*setup.shape), found.text);
+    found.text = fmt::format("{} of {} light: {}", name_of(quantity), with_article(name_of(*setup.shape)), found.text);
   return found;
 }
 
@@ -92,9 +93,9 @@ Result<Conversion> Conversion::between(Dimension given, Dimension wanted, const 
 
   const Result<Dimension> from = plain(given, wanted, setup.shape.has_value()), to = plain(wanted, given, setup.shape.has_value());
   if (!from || !to)
-    return parameter_error(
-        "to", "DIMENSION_MISMATCH",
-        fmt::format("a {} (in {}) does not become a {} (in {})", name_of(given), si_unit_of(given), name_of(wanted), si_unit_of(wanted)));
+    return parameter_error("to", "DIMENSION_MISMATCH",
+                           fmt::format("{} (in {}) does not become {} (in {})", with_article(name_of(given)), si_unit_of(given),
+                                       with_article(name_of(wanted)), si_unit_of(wanted)));
   Result<Wide> ratio = ratio_between(*from, *to, setup);
   if (!ratio) return of_shape(ratio.error(), wanted, setup);
 
@@ -144,7 +145,7 @@ Result<double> Conversion::operator()(double x) const {
   const bool signed_quantity = !is_light(given()) && !photometric_twin(given());
   if (!std::isfinite(x) || (x < 0 && !signed_quantity))
     return parameter_error("value", "NUMBER_INVALID",
-                           fmt::format("expected a {} that is finite{}, found {} {}", name_of(given()),
+                           fmt::format("expected {} that is finite{}, found {} {}", with_article(name_of(given())),
                                        signed_quantity ? "" : " and not negative", given_.to_si(x), si_unit_of(given())));
   if (given() == Dimension::temperature)
     if (const Result<double> checked = checked_temperature(given_.to_si(x)); !checked) return about("value", checked.error());
@@ -159,9 +160,9 @@ Result<double> Conversion::operator()(double x) const {
     result = double((is_ev(given()) ? std::exp2(si) * given_per_ev_ : si) * Wide(ratio_, ratio_rest_));
     if (is_ev(wanted())) {
       if (!(result > 0))
-        return parameter_error(
-            "value", given() == Dimension::illuminance ? "ILLUMINANCE_NOT_POSITIVE" : "LUMINANCE_NOT_POSITIVE",
-            fmt::format("expected a {} above 0, found {} {}: it has no exposure value", name_of(given()), si, si_unit_of(given())));
+        return parameter_error("value", given() == Dimension::illuminance ? "ILLUMINANCE_NOT_POSITIVE" : "LUMINANCE_NOT_POSITIVE",
+                               fmt::format("expected {} above 0, found {} {}: it has no exposure value", with_article(name_of(given())), si,
+                                           si_unit_of(given())));
       result = std::log2(result) - std::log2(wanted_per_ev_);
     }
     result = wanted_.from_si(result);

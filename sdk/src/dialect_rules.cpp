@@ -1,4 +1,5 @@
 #include "dialect_rules.h"
+#include "article.h"
 #include "parameter_error.h"
 
 #include <fmt/format.h>
@@ -196,9 +197,9 @@ Result<std::string> unit_of(Dialect dialect, const Shape& shape, std::string_vie
     return parameter_error("shape", "DIALECT_HAS_NO_SUCH_LIGHT", fmt::format("{} has no {} light", info.program, name_of(shape)));
   if (asked_for.empty()) return std::string(units.front());
   if (std::find(units.begin(), units.end(), asked_for) != units.end()) return std::string(asked_for);
-  return parameter_error(
-      "unit", "UNIT_UNSUITABLE",
-      fmt::format("{} states a {} light in {}, not in \"{}\"", info.program, name_of(shape), fmt::join(units, ", "), asked_for));
+  return parameter_error("unit", "UNIT_UNSUITABLE",
+                         fmt::format("{} states {} light in {}, not in \"{}\"", info.program, with_article(name_of(shape)),
+                                     fmt::join(units, ", "), asked_for));
 }
 
 Result<double> natural_per_amount(Dialect dialect, const StatedLight& stated) {

@@ -1,5 +1,6 @@
 #include "light_ratio.h"
 
+#include "article.h"
 #include "light_illuminance.h"
 #include "parameter_error.h"
 
@@ -157,8 +158,8 @@ template <class S>
 Result<double> converted(const Known& from, const Known& wanted, const S& shape, const Conventions& conventions) {
   if (!(from.si >= 0 && std::isfinite(from.si)))
     return parameter_error("value", "NUMBER_INVALID",
-                           fmt::format("expected a {} that is finite and not negative, found {} {}", name_of(from.dimension), from.si,
-                                       si_unit_of(from.dimension)));
+                           fmt::format("expected {} that is finite and not negative, found {} {}", with_article(name_of(from.dimension)),
+                                       from.si, si_unit_of(from.dimension)));
   if (from.dimension == wanted.dimension && from.distance_m == wanted.distance_m) return from.si;
   const Result<Wide> divisor = ratio_of(shape, from.dimension, conventions, from.distance_m);
   if (!divisor) return divisor.error();

@@ -1,5 +1,6 @@
 #include "etendue/quantity_text.h"
 
+#include "article.h"
 #include "camera_text.h"
 #include "etendue/srgb.h"
 #include "etendue/temperature.h"
@@ -15,8 +16,8 @@ Result<double> take_si(Cursor& cursor, Dimension expected) {
   const Result<Counted> quantity = take_quantity(cursor);
   if (!quantity) return quantity.error();
   if (quantity->unit->dimension == expected) return quantity->si();
-  return before.error("DIMENSION_MISMATCH", fmt::format("expected a {} (in {}), found a {}", name_of(expected), si_unit_of(expected),
-                                                        name_of(quantity->unit->dimension)));
+  return before.error("DIMENSION_MISMATCH", fmt::format("expected {} (in {}), found {}", with_article(name_of(expected)),
+                                                        si_unit_of(expected), with_article(name_of(quantity->unit->dimension))));
 }
 
 // ---- Colours ----
@@ -134,7 +135,8 @@ Result<Written> take_numbered(Cursor cursor, Diagnostics* clamped) {
     const Cursor at = cursor;
     if (!said.distance_m && cursor.take("@")) {
       if (dimension != Dimension::illuminance && dimension != Dimension::irradiance)
-        return at.error("DIMENSION_MISMATCH", fmt::format("only an illuminance has a distance, found one behind a {}", name_of(dimension)));
+        return at.error("DIMENSION_MISMATCH",
+                        fmt::format("only an illuminance has a distance, found one behind {}", with_article(name_of(dimension))));
       const Result<double> distance = take_si(cursor, Dimension::length);
       if (!distance) return distance.error();
       said.distance_m = *distance;

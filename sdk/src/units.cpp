@@ -1,5 +1,6 @@
 #include "etendue/unit_names.h"
 
+#include "article.h"
 #include "number_text.h"
 
 #include <fmt/format.h>
@@ -67,8 +68,8 @@ Result<double> parse_si(std::string_view text, Dimension expected) {
   if (!quantity) return quantity.error();
   if (quantity->dimension != expected)
     return Error{"DIMENSION_MISMATCH",
-                 fmt::format("expected a {} (in {}), found a {}: \"{}\"", name_of(expected), si_unit_of(expected),
-                             name_of(quantity->dimension), text),
+                 fmt::format("expected {} (in {}), found {}: \"{}\"", with_article(name_of(expected)), si_unit_of(expected),
+                             with_article(name_of(quantity->dimension)), text),
                  {},
                  {},
                  {}};

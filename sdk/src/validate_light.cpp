@@ -1,3 +1,4 @@
+#include "article.h"
 #include "polygon.h"
 #include "validator.h"
 
@@ -71,7 +72,7 @@ void validate_light(Validator& check, const Light& light) {
     if (!std::holds_alternative<MeshShape>(light.shape)) check.error("VALUE_UNSUITABLE", "only a mesh light has a surface material");
   }
   if (light.two_sided && !emits_both_sides(light))
-    check.warning("TWO_SIDED_UNUSED", fmt::format("a {} light has no second side that could be seen", name_of(light.shape)));
+    check.warning("TWO_SIDED_UNUSED", fmt::format("{} light has no second side that could be seen", with_article(name_of(light.shape))));
 
   if (!std::visit(CheckShape{check}, light.shape)) return;
   if (const Result<Resolved> resolved = resolve(light, mesh_area_of(check.scene(), light)); !resolved) check.append(resolved.error());
