@@ -72,10 +72,12 @@ std::size_t Ev100OfLuminance(const float* luminance, float whole_shift, float fr
   std::size_t without = 0;
   for_each_vector<1, 1>(d, luminance, ev100, count, 1.0f, [&](const float* from, float* to) {
     const auto l = hn::LoadU(d, from);
-    const auto valid = hn::And(hn::Gt(l, hn::Zero(d)), hn::Le(l, hn::Set(d, largest)));
-    const auto log = log2_of(d, l);
-    const auto ev = hn::Add(hn::Sub(log.whole, whole), hn::Sub(log.fraction, fraction));
-    hn::StoreU(hn::IfThenElse(valid, ev, none), d, to);
+    const auto ev_of = [&](const auto& log) { return hn::Add(hn::Sub(log.whole, whole), hn::Sub(log.fraction, fraction)); };
+    const auto finite = hn::Le(l, hn::Set(d, largest));
+    if (HWY_LIKELY(hn::AllTrue(d, hn::And(finite, hn::Ge(l, hn::Set(d, least_normal))))))
+      return hn::StoreU(ev_of(log2_of_normal(d, l)), d, to);
+    const auto valid = hn::And(finite, hn::Gt(l, hn::Zero(d)));
+    hn::StoreU(hn::IfThenElse(valid, ev_of(log2_of(d, l)), none), d, to);
     without += hn::CountTrue(d, hn::Not(valid));
   });
   return without;

@@ -100,20 +100,18 @@ HWY_INLINE V exp2_of(D d, V whole, V f, V factor) {
   return hn::BitCast(d, hn::Add(hn::BitCast(di, hn::Mul(p, factor)), hn::ShiftLeft<23>(hn::ConvertTo(di, whole))));
 }
 
-// log2(x) of positive finite floats as whole + fraction, |fraction| <= 1/2. x = 2^e m, m in [sqrt(1/2), sqrt(2)), and log2(m) = 2/ln 2
-// (z + z^3/3 + z^5/5 + z^7/7 + z^9/9), z = (m - 1)/(m + 1), |z| <= .1716: the next term is 1e-9. Absolute error of the fraction <= 6e-8.
+// log2(x) as whole + fraction, |fraction| <= 1/2, of positive finite floats that are no subnormals. x = 2^e m, m in [sqrt(1/2), sqrt(2)),
+// and log2(m) = 2/ln 2 (z + z^3/3 + z^5/5 + z^7/7 + z^9/9), z = (m - 1)/(m + 1), |z| <= .1716: the next term is 1e-9. Absolute error of the
+// fraction <= 6e-8.
 template <class V>
 struct Log2Parts {
   V whole, fraction;
 };
+inline constexpr float least_normal = 1.17549435e-38f;
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Log2Parts<V> log2_of(D d, V x) {
+HWY_INLINE Log2Parts<V> log2_of_normal(D d, V x) {
   const hn::RebindToSigned<D> di;
-  // Subnormals are scaled by 2^24 first.
-  const auto small = hn::Lt(x, hn::Set(d, 1.17549435e-38f));
-  const V scaled = hn::IfThenElse(small, hn::Mul(x, hn::Set(d, 16777216.0f)), x);
-  const V taken_back = hn::IfThenElseZero(small, hn::Set(d, -24.0f));
-  const auto bits = hn::BitCast(di, scaled);
+  const auto bits = hn::BitCast(di, x);
   const auto e = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f3504f3)));  // the bits of sqrt(1/2)
   const V m = hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(e)));
   const V one = hn::Set(d, 1.0f);
@@ -124,7 +122,15 @@ HWY_INLINE Log2Parts<V> log2_of(D d, V x) {
   p = hn::MulAdd(p, squared, hn::Set(d, 0.57707802f));  // 2 / (5 ln 2)
   p = hn::MulAdd(p, squared, hn::Set(d, 0.96179669f));  // 2 / (3 ln 2)
   p = hn::MulAdd(p, squared, hn::Set(d, 2.8853901f));   // 2 / ln 2
-  return {hn::Add(hn::ConvertTo(d, e), taken_back), hn::Mul(p, z)};
+  return {hn::ConvertTo(d, e), hn::Mul(p, z)};
+}
+// The same of subnormals as well: they are scaled by 2^24 first.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Log2Parts<V> log2_of(D d, V x) {
+  const auto small = hn::Lt(x, hn::Set(d, least_normal));
+  Log2Parts<V> log = log2_of_normal(d, hn::IfThenElse(small, hn::Mul(x, hn::Set(d, 16777216.0f)), x));
+  log.whole = hn::Add(log.whole, hn::IfThenElseZero(small, hn::Set(d, -24.0f)));
+  return log;
 }
 
 // x^e = 2^(e log2 x) of positive finite x, for results within normal floats, else one near the nearest of these. e = high + low, high of 14
