@@ -19,6 +19,11 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   # Bit-for-bit the same results from both compilers: no fused multiply-add that the source does not ask for.
   target_compile_options(etendue_flags INTERFACE -ffp-contract=off)
 endif()
+# A program loads the shared libraries that it uses, not all that its targets name: of 268, most tests use ten, and each test is a program's
+# start. (Debian's GCC does so by itself.)
+if(UNIX AND NOT APPLE)
+  target_link_options(etendue_flags INTERFACE LINKER:--as-needed)
+endif()
 # GCC 12 reports overlapping copies inside std::string operators (GCC bug 105651) and unset members of a std::variant's other
 # alternative (GCC bug 80635) that cannot happen; clang and the sanitizers check the same.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
