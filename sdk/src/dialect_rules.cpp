@@ -218,13 +218,13 @@ Result<double> natural_per_amount(Dialect dialect, const StatedLight& stated) {
   }
   if (unit == "lm") return per_lumen(dialect, stated);
   if (unit == "cd" || unit == "unitless") {
-    const Result<double> factor = per_candela(stated);
+    Result<double> factor = per_candela(stated);
     if (!factor || unit == "cd") return factor;
     return *factor * 16 / (100 * 100);  // Unreal: 16 cm2 to the unit, 1 cd = 625
   }
   if (unit == "W" || unit == "W/m2/sr") {  // V-Ray
     if (unit == "W/m2/sr") return blender_lm_W;
-    const Result<double> factor = per_lumen(dialect, stated);
+    Result<double> factor = per_lumen(dialect, stated);
     if (!factor) return factor;
     return blender_lm_W * *factor;
   }
