@@ -60,7 +60,7 @@ Status AssetFolder::prepare() {
 
 Result<std::string> AssetFolder::add_file(std::string_view kind, std::string_view extension, std::span<const std::byte> bytes) {
   const std::string name = std::string(kind) + '_' + digest_of(bytes) + std::string(extension);
-  const std::string reference = folder_.filename().string() + '/' + name;
+  std::string reference = folder_.filename().string() + '/' + name;
   if (std::find(names_.begin(), names_.end(), name) != names_.end()) return reference;
   if (Status ready = prepare(); !ready) return ready.error();
   if (Status written = write_file(staging_ / name, bytes); !written) return written.error();
@@ -73,7 +73,7 @@ Result<std::string> AssetFolder::add_mesh(const Mesh& mesh) { return add_file("m
 Result<std::string> AssetFolder::add_picture(std::uint32_t width, std::uint32_t height, std::vector<float> rgb) {
   const std::string size = std::to_string(width) + 'x' + std::to_string(height);
   const std::string name = "picture_" + digest_of(digest_of(std::as_bytes(std::span(rgb))) + size) + ".exr";
-  const std::string reference = folder_.filename().string() + '/' + name;
+  std::string reference = folder_.filename().string() + '/' + name;
   if (std::find(names_.begin(), names_.end(), name) != names_.end()) return reference;
   if (Status ready = prepare(); !ready) return ready.error();
   Picture picture{width, height, {{"", 3, std::move(rgb)}}, {}, {}};

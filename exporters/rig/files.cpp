@@ -16,7 +16,7 @@ constexpr std::uint64_t largest_copy = std::uint64_t{1} << 32;
 std::optional<std::string> name_inside(const fs::path& rig, const fs::path& file) {
   std::error_code ignored;
   const fs::path folder = fs::weakly_canonical(rig.parent_path().empty() ? fs::path(".") : rig.parent_path(), ignored);
-  const std::string name = fs::weakly_canonical(file, ignored).lexically_relative(folder).generic_string();
+  std::string name = fs::weakly_canonical(file, ignored).lexically_relative(folder).generic_string();
   const bool outside = name.empty() || name == "." || name == ".." || name.compare(0, 3, "../") == 0;
   if (outside || name.find_first_of("\\:") != std::string::npos) return {};
   return name;
@@ -52,7 +52,7 @@ const char* extension_of(const SharedBytes& bytes) {
 
 Result<std::string> put_beside(Writer& writer, const std::string& origin, const std::string& wanted, std::span<const std::byte> bytes) {
   const std::string folder = folder_beside(writer.file);
-  const std::string name = fmt::format("{}/{}_{}", folder, writer.files_beside.size(), plain(wanted));
+  std::string name = fmt::format("{}/{}_{}", folder, writer.files_beside.size(), plain(wanted));
   const fs::path target = writer.file.parent_path() / name;
   std::error_code failure;
   fs::create_directories(target.parent_path(), failure);

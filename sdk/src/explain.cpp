@@ -159,7 +159,7 @@ class Explainer {
     const bool both = plain(given_, wanted_) == plain(wanted_, given_);
     const std::string_view distance = both ? distance_name : "distance",
                            projected = both && distance == "given_distance" ? "given_projected" : "projected";
-    const std::string text = renamed(renamed(formula->factor, "distance", distance), "projected", projected);
+    std::string text = renamed(renamed(formula->factor, "distance", distance), "projected", projected);
     std::vector<Symbol> symbols = std::visit(SymbolsOf{setup_, distance_m}, *setup_.shape);
     symbols.push_back({"distance", distance_m.value_or(0), "m"});
     symbols.push_back({"sides", setup_.conventions.two_sided ? 2.0 : 1.0, ""});

@@ -101,8 +101,8 @@ Status angle(const Named& name, double rad, double most_rad) {
 
 Status check_size(const PointShape&) { return Done{}; }
 Status check_size(const SpotShape& s) {
-  if (const Status outer = angle({"outer", "an outer half angle"}, s.outer_rad, pi); !outer) return outer;
-  if (const Status inner = angle({"inner", "an inner half angle"}, s.inner_rad, pi); !inner) return inner;
+  if (Status outer = angle({"outer", "an outer half angle"}, s.outer_rad, pi); !outer) return outer;
+  if (Status inner = angle({"inner", "an inner half angle"}, s.inner_rad, pi); !inner) return inner;
   if (s.inner_rad <= s.outer_rad) return Done{};
   return parameter_error("inner", "NUMBER_INVALID",
                          fmt::format("expected an inner half angle up to the outer one, {:g} degrees, found {:g} degrees",

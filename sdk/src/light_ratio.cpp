@@ -142,7 +142,7 @@ bool needs_no_size(Dimension quantity) {
 
 template <class S>
 Result<Wide> ratio_of(const S& shape, Dimension quantity, const Conventions& conventions, std::optional<double> distance_m) {
-  const Result<Wide> ratio = unchecked_ratio(shape, quantity, conventions, distance_m);
+  Result<Wide> ratio = unchecked_ratio(shape, quantity, conventions, distance_m);
   if (!ratio && ratio.error().code == "UNIT_UNSUITABLE") return ratio;
   if (!needs_no_size<S>(quantity))
     if (const Status sized = check_size(shape); !sized) return sized.error();
