@@ -145,6 +145,10 @@ bool Reader::read_tilt(IesRecord& record, std::string_view value) {
   if (value.empty())
     return fail("TILT_MISSING", "expected NONE, INCLUDE or a file behind TILT=, found nothing", value.data(),
                 "write TILT=NONE if there is no tilt");
+  // No line that is written may hold the character that ends a text: without it the name would be another one, or a word with a meaning.
+  if (value.find('\x1a') != std::string_view::npos)
+    return fail("TILT_MISSING", "expected NONE, INCLUDE or a file behind TILT=, found a name with a control character", value.data(),
+                "write TILT=NONE if there is no tilt");
   record.tilt.emplace();
   if (word == "INCLUDE") return read_tilt_records(numbers_, reporter_, *record.tilt);
   record.tilt->file = to_utf8(value);

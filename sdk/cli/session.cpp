@@ -128,7 +128,7 @@ Result<std::vector<std::uint32_t>> lit_lights(const Scene& scene, const std::str
     lit = *named;
   }
   if (!mute.empty()) {
-    const auto muted = lights_by_name(scene, mute);
+    auto muted = lights_by_name(scene, mute);
     if (!muted) return muted;
     std::erase_if(lit, [&](std::uint32_t i) { return std::find(muted->begin(), muted->end(), i) != muted->end(); });
   }
