@@ -30,16 +30,24 @@ constexpr std::size_t standard_tags = 4;
 
 constexpr std::size_t most_label_lines = 4096;
 
+// What ends a text on DOS counts as a blank here, as it does where a label is written.
+std::string_view without_blanks(std::string_view text) {
+  const auto blank = [](char c) { return photometric::is_blank(c) || photometric::is_eol(c) || c == '\x1a'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
 // "TILT", blanks, "=": the value behind it.
 std::optional<std::string_view> tilt_value(std::string_view line) {
-  std::string_view rest = trimmed(line);
+  std::string_view rest = without_blanks(line);
   constexpr std::string_view word = "TILT";
   if (rest.size() <= word.size() || rest.front() == '[') return {};
   for (std::size_t i = 0; i < word.size(); ++i)
     if ((rest[i] & ~0x20) != word[i]) return {};
-  rest = trimmed(rest.substr(word.size()));
+  rest = without_blanks(rest.substr(word.size()));
   if (!rest.starts_with('=')) return {};
-  return trimmed(rest.substr(1));
+  return without_blanks(rest.substr(1));
 }
 
 }  // namespace
@@ -145,7 +153,7 @@ bool Reader::read_tilt(IesRecord& record, std::string_view value) {
   if (value.empty())
     return fail("TILT_MISSING", "expected NONE, INCLUDE or a file behind TILT=, found nothing", value.data(),
                 "write TILT=NONE if there is no tilt");
-  // No line that is written may hold the character that ends a text: without it the name would be another one, or a word with a meaning.
+  // Written with a blank in its place the name would be another one, or a word with a meaning.
   if (value.find('\x1a') != std::string_view::npos)
     return fail("TILT_MISSING", "expected NONE, INCLUDE or a file behind TILT=, found a name with a control character", value.data(),
                 "write TILT=NONE if there is no tilt");

@@ -125,7 +125,7 @@ TEST(IesImport, BrokenFilesAreRefusedWhereTheyBreak) {
       {"FILE_EMPTY", "", 1, 1},
       {"NUL_BYTES", replaced(clean, "[TEST] 1", std::string("[TEST]\0", 7)), 2, 7},
       {"TILT_MISSING", head, 8, 1},
-      {"TILT_MISSING", replaced(clean, "TILT=NONE", "TILT=\x1aNONE"), 8, 6},
+      {"TILT_MISSING", replaced(clean, "TILT=NONE", "TILT=NO\x1aNE"), 8, 6},
       {"FILE_TRUNCATED", replaced(clean, "100 40 5\r\n", "100 40"), 14, 7},
       {"FILE_TRUNCATED", head + "TILT=NONE\r\n1 1000 2", 9, 9},
       {"NUMBER_EXPECTED", replaced(clean, "100 40 5", "100 x 5"), 14, 5},
