@@ -2,6 +2,8 @@
 // where it bends so little that the interpolation's error is below the tolerance.
 #include "painter.h"
 
+#include <cstdint>
+
 namespace etendue::rendering {
 namespace {
 
@@ -55,26 +57,31 @@ void LightPainter::centre_row(std::uint32_t row, int pass, RayCounts& counts) {
   }
 }
 
-// The cubic through four places at -3, -1, 1, 3 steps has (9 (f(-1) + f(1)) - f(-3) - f(3)) / 16 in the middle. With h the step, f2 and f4
-// the second and fourth derivatives, it differs from the straight line's value by b = h^2 f2 / 2 and errs by .375 h^4 f4; with f4 of the
-// order f2^2 / f that is 1.5 b^2 / f.
+// The cubic through four places at -3, -1, 1, 3 steps has (9 (f(-1) + f(1)) - f(-3) - f(3)) / 16 in the middle and errs by .375 h^4 f4, h
+// the step, f4 the fourth derivative. Five places 2 h apart have the fourth difference 16 h^4 f4: those from -3 to 5 and from -5 to 3 say
+// what f4 is on both sides, and the larger stands for the error, doubled, as it is not constant in between.
 std::optional<Reflected> LightPainter::interpolated(std::uint32_t x, std::uint32_t y) const {
   const Place place = place_of(x, y);
   if (light_.delta || !(place.between_x || place.between_y)) return std::nullopt;
-  const std::size_t stride = place.between_x ? 1 : options_.width;
-  const std::uint32_t at = place.between_x ? x : y, end = place.between_x ? options_.width : options_.height;
-  const std::size_t pixel = index(x, y), reach = place.step * stride;
-  if (at < 3 * place.step || at + 3 * place.step >= end) return std::nullopt;
-  for (const std::size_t n : {pixel - 3 * reach, pixel - reach, pixel + reach, pixel + 3 * reach}) {
-    if (known_[n] == 0 || survey_.key(n) != survey_.key(pixel)) return std::nullopt;
-  }
-  const Rgb inner = centre_[pixel - reach] + centre_[pixel + reach], outer = centre_[pixel - 3 * reach] + centre_[pixel + 3 * reach];
-  const Rgb value = inner * (9.0 / 16) - outer / 16.0;
-  const double bend = largest(inner - outer) / 16;
-  const double allowed = std::max(0.3 * std::sqrt(tolerance_.relative) * largest(value), tolerance_.absolute);
-  if (bend > allowed) return std::nullopt;
-  const double size = largest(value), own = static_cast<double>(std::max(centre_bound_[pixel - reach], centre_bound_[pixel + reach]));
-  return Reflected{value, own + (size > 0 ? 1.5 * bend * bend / size : bend)};
+  const std::int64_t at = place.between_x ? x : y, end = place.between_x ? options_.width : options_.height;
+  const std::int64_t pixel = index(x, y), reach = std::int64_t{place.step} * (place.between_x ? 1 : options_.width);
+  // Of the same surface, so many steps away; nothing where that is not known.
+  const auto known = [&](int steps) -> const Rgb* {
+    const std::int64_t there = at + std::int64_t{steps} * place.step;
+    if (there < 0 || there >= end) return nullptr;
+    const auto n = static_cast<std::size_t>(pixel + steps * reach);
+    return known_[n] != 0 && survey_.key(n) == survey_.key(static_cast<std::size_t>(pixel)) ? &centre_[n] : nullptr;
+  };
+  const Rgb *a = known(-3), *b = known(-1), *c = known(1), *d = known(3), *before = known(-5), *after = known(5);
+  if (a == nullptr || b == nullptr || c == nullptr || d == nullptr || (before == nullptr && after == nullptr)) return std::nullopt;
+  const Rgb value = (*b + *c) * (9.0 / 16) - (*a + *d) / 16.0;
+  double fourth = 0;
+  if (before != nullptr) fourth = largest(*before - *a * 4.0 + *b * 6.0 - *c * 4.0 + *d);
+  if (after != nullptr) fourth = std::max(fourth, largest(*a - *b * 4.0 + *c * 6.0 - *d * 4.0 + *after));
+  const double error = 2 * 0.375 / 16 * fourth;
+  if (error > std::max(0.2 * tolerance_.relative * largest(value), tolerance_.absolute)) return std::nullopt;
+  const auto bound = [&](int steps) { return static_cast<double>(centre_bound_[static_cast<std::size_t>(pixel + steps * reach)]); };
+  return Reflected{value, std::max(bound(-1), bound(1)) + error};
 }
 
 // The mean of f over a pixel of side 1 is f + (f_xx + f_yy) / 24 + O(4th derivatives); second differences of neighbours give f_xx, f_yy.
