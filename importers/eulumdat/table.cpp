@@ -81,9 +81,9 @@ bool Reader::choose_planes(const Table& table, const std::vector<double>& c, Int
 
 bool Reader::judge_values(IntensityGrid& grid, double factor, const char* begin) {
   const auto [lowest, highest] = std::minmax_element(grid.values.begin(), grid.values.end());
-  if (!std::isfinite(*highest * factor))
-    return fail("NUMBER_RANGE", "the intensities times their factors are beyond what a double holds", numbers_.token(),
-                "check the conversion factor");
+  if (!(*highest * std::max(1.0, factor) <= largest_candelas))
+    return fail("NUMBER_RANGE", fmt::format("expected candelas of {:g} at most, found {} x {}", largest_candelas, *highest, factor),
+                numbers_.token(), "check the conversion factor");
   if (*lowest >= 0) return true;
   photometric::NumberReader again(begin, numbers_.end(), photometric::Comma::decimal);
   const char* first = nullptr;

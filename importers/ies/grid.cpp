@@ -108,8 +108,9 @@ bool Reader::read_values(IntensityGrid& grid, const IesRecord& record) {
   if (*lowest < 0 && !judge_negative(grid, begin)) return false;
   double factor = record.multiplier * record.ballast_factor;
   if (record.version <= IesVersion::lm_63_1991) factor *= record.third_factor;
-  return std::isfinite(*highest * factor) ||
-         fail("NUMBER_RANGE", "the candelas times their factors are beyond what a double holds", numbers_.token(), "check the multiplier");
+  return *highest * std::max(1.0, factor) <= largest_candelas ||
+         fail("NUMBER_RANGE", fmt::format("expected candelas of {:g} at most, found {} x {}", largest_candelas, *highest, factor),
+              numbers_.token(), "check the multiplier");
 }
 
 // Noise of a subtraction is set to zero; light that is negative by more than a thousandth of the peak is no light.

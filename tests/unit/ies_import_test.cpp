@@ -132,6 +132,7 @@ TEST(IesImport, BrokenFilesAreRefusedWhereTheyBreak) {
       {"NUMBER_EXPECTED", replaced(clean, "100 40 5", "100 nan 5"), 14, 5},
       {"NUMBER_RANGE", replaced(clean, "100 40 5", "100 4e999 5"), 14, 5},
       {"NUMBER_RANGE", replaced(clean, "1000 2 3", "1000 1e308 3"), 14, 8},
+      {"NUMBER_RANGE", replaced(clean, "100 40 5", "100 1e101 5"), 14, 11},
       {"COUNT_INVALID", replaced(clean, "1000 2 3", "1000 2 1e30"), 9, 10},
       {"COUNT_INVALID", replaced(clean, "1000 2 3", "1000 2 -3"), 9, 10},
       {"COUNT_INVALID", replaced(clean, "1000 2 3", "1000 2 3.5"), 9, 10},

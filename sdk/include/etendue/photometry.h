@@ -107,6 +107,9 @@ struct IntensityDistribution {
   std::size_t lamp_set = 0;  // which of EULUMDAT's
 };
 
+// What a grid's value and its candelas may be at most, so that flux and squares stay within a double. The sun has 3e27 cd.
+inline constexpr double largest_candelas = 1e100;
+
 // cd for a grid value of 1: IES multiplier x ballast factor (x ballast-lamp factor in 1986 and 1991 alone; LM-63 3.18); EULUMDAT
 // conversion factor x flux of the chosen lamp set / 1000.
 double candelas_per_value(const IntensityDistribution& distribution);

@@ -56,8 +56,8 @@ Status check(const IntensityDistribution& d) {
   if (!std::isfinite(factor) || factor < 0)
     return invalid(d, fmt::format("expected factors that are finite and not negative, found {}", factor));
   for (const double value : grid.values) {
-    if (!(value >= 0) || !std::isfinite(value * factor))
-      return invalid(d, fmt::format("expected candelas that are finite and not negative, found {} x {}", value, factor));
+    if (!(value >= 0) || !(value * std::max(1.0, factor) <= largest_candelas))
+      return invalid(d, fmt::format("expected candelas from 0 to {:g}, found {} x {}", largest_candelas, value, factor));
   }
   return Done{};
 }
