@@ -149,10 +149,10 @@ TEST(Render, HighlightsFlanksAreInterpolatedToTheTolerance) {
   ASSERT_TRUE(emitter.ok());
   int seen = 0;
   for (std::size_t i = 0; i < std::size_t{side} * side; ++i) {
-    const double column = static_cast<double>(i % side), row = static_cast<double>(i / side);
-    const Vec3d middle = floor_point(scene.cameras[0], options, column + 0.5, row + 0.5);
+    const std::size_t column = i % side, row = i / side;
+    const Vec3d middle = floor_point(scene.cameras[0], options, static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     constexpr double far = 6;  // towards the horizon a pixel sees too much for one rule
-    if (row < side / 4 || length(middle) > far) continue;
+    if (4 * row < side || length(middle) > far) continue;
     const double expected = pixel_mean(scene.cameras[0], options, i, [&](const Vec3d& p) {
       const eval::ShadingPoint point{
           p, {0, 1, 0}, {0, 1, 0}, normalised(scene.cameras[0].transform.translation - p), std::get<Conductor>(scene.materials[0].model)};
