@@ -1,5 +1,5 @@
-// The program `etendue`. What needs no picture is answered here: readers and writers of pictures bring some 270 shared libraries, which take
-// ten times as long to load as most answers take. For every other verb this becomes etendue-all, which lies beside it.
+// The program `etendue`. What needs no picture is answered here: readers and writers of pictures bring some 270 shared libraries, which
+// take ten times as long to load as most answers take. For every other verb this becomes etendue-all, which lies beside it.
 #include <fmt/format.h>
 
 #include <algorithm>
