@@ -11,6 +11,7 @@
 
 #include "simd-inl.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -64,10 +65,27 @@ struct LaneArcs {
         hn::IfThenElse(hn::Ge(position, hn::Set(d, static_cast<double>(arc_count))), hn::Set(d, arc_count - 1.0), hn::Zero(d));
     first = hn::IfThenElse(inside, hn::Floor(position), last);
     const auto index = hn::ConvertTo(di, hn::Mul(first, hn::Set(d, 2.0 * arc_terms)));
-    for (int k = 0; k < arc_terms; ++k) {
-      u[k] = hn::GatherIndex(d, arcs + k, index);
-      v[k] = hn::GatherIndex(d, arcs + arc_terms + k, index);
+    V both[2 * arc_terms];
+#if HWY_TARGET == HWY_AVX2
+    // Its gathers take most of the time: rows are loaded and turned instead, four numbers of four arcs at once.
+    static_assert(hn::MaxLanes(D()) == 4 && 2 * arc_terms % 4 == 0);
+    HWY_ALIGN std::int64_t rows[4];
+    hn::Store(index, di, rows);
+    for (int k = 0; k < 2 * arc_terms; k += 4) {
+      const V a = hn::LoadU(d, arcs + rows[0] + k), b = hn::LoadU(d, arcs + rows[1] + k), c = hn::LoadU(d, arcs + rows[2] + k),
+              e = hn::LoadU(d, arcs + rows[3] + k);
+      const V even_ab = hn::InterleaveLower(d, a, b), odd_ab = hn::InterleaveUpper(d, a, b), even_ce = hn::InterleaveLower(d, c, e),
+              odd_ce = hn::InterleaveUpper(d, c, e);
+      both[k] = hn::ConcatLowerLower(d, even_ce, even_ab);
+      both[k + 1] = hn::ConcatLowerLower(d, odd_ce, odd_ab);
+      both[k + 2] = hn::ConcatUpperUpper(d, even_ce, even_ab);
+      both[k + 3] = hn::ConcatUpperUpper(d, odd_ce, odd_ab);
     }
+#else
+    for (int k = 0; k < 2 * arc_terms; ++k) both[k] = hn::GatherIndex(d, arcs + k, index);
+#endif
+    std::copy(both, both + arc_terms, u);
+    std::copy(both + arc_terms, both + 2 * arc_terms, v);
   }
 };
 
