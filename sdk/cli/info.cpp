@@ -72,7 +72,7 @@ int run_info(const Common& common, const InfoOptions& options) {
 void add_info(CLI::App& app, const Common& common, Run& run) {
   CLI::App* const verb = app.add_subcommand("info", "What is in an asset, as authored, and what is wrong with it");
   auto options = std::make_shared<InfoOptions>();
-  verb->add_option("FILE", options->files, "Assets: .rig.json, .gltf, .glb")->required();
+  verb->add_option("FILE", options->files, "Assets: .rig.json, .gltf, .glb, .ies, .ldt")->required();
   verb->add_option("--need", options->need, "Only these: lights, materials, cameras, meshes, images; the rest of the file is not touched")
       ->delimiter(',')
       ->expected(1)

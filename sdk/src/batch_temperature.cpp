@@ -11,7 +11,6 @@
 
 #include "simd-inl.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -54,8 +53,8 @@ HWY_INLINE V bivariate(D d, const T* c, V x, V y) {
 template <class D>
 struct LaneArcs {
   using V = hn::Vec<D>;
-  V first;  // the arcs' indices
-  V u[arc_terms], v[arc_terms];
+  V first;              // the arcs' indices
+  V uv[2 * arc_terms];  // of u, then of v
 
   // Anything beside the table (NaN as well) is sent to its first arc: it does not converge there, or is found out of range.
   LaneArcs(D d, const double* arcs, V position) {
@@ -65,7 +64,6 @@ struct LaneArcs {
         hn::IfThenElse(hn::Ge(position, hn::Set(d, static_cast<double>(arc_count))), hn::Set(d, arc_count - 1.0), hn::Zero(d));
     first = hn::IfThenElse(inside, hn::Floor(position), last);
     const auto index = hn::ConvertTo(di, hn::Mul(first, hn::Set(d, 2.0 * arc_terms)));
-    V both[2 * arc_terms];
 #if HWY_TARGET == HWY_AVX2
     // Its gathers take most of the time: rows are loaded and turned instead, four numbers of four arcs at once.
     static_assert(hn::MaxLanes(D()) == 4 && 2 * arc_terms % 4 == 0);
@@ -76,16 +74,14 @@ struct LaneArcs {
               e = hn::LoadU(d, arcs + rows[3] + k);
       const V even_ab = hn::InterleaveLower(d, a, b), odd_ab = hn::InterleaveUpper(d, a, b), even_ce = hn::InterleaveLower(d, c, e),
               odd_ce = hn::InterleaveUpper(d, c, e);
-      both[k] = hn::ConcatLowerLower(d, even_ce, even_ab);
-      both[k + 1] = hn::ConcatLowerLower(d, odd_ce, odd_ab);
-      both[k + 2] = hn::ConcatUpperUpper(d, even_ce, even_ab);
-      both[k + 3] = hn::ConcatUpperUpper(d, odd_ce, odd_ab);
+      uv[k] = hn::ConcatLowerLower(d, even_ce, even_ab);
+      uv[k + 1] = hn::ConcatLowerLower(d, odd_ce, odd_ab);
+      uv[k + 2] = hn::ConcatUpperUpper(d, even_ce, even_ab);
+      uv[k + 3] = hn::ConcatUpperUpper(d, odd_ce, odd_ab);
     }
 #else
-    for (int k = 0; k < 2 * arc_terms; ++k) both[k] = hn::GatherIndex(d, arcs + k, index);
+    for (int k = 0; k < 2 * arc_terms; ++k) uv[k] = hn::GatherIndex(d, arcs + k, index);
 #endif
-    std::copy(both, both + arc_terms, u);
-    std::copy(both + arc_terms, both + 2 * arc_terms, v);
   }
 };
 
@@ -108,7 +104,7 @@ HWY_INLINE Curve<V> curve_of(D d, const V* c, V t) {
 template <class D, class V>
 HWY_INLINE V newton_step(D d, const LaneArcs<D>& arcs, V position, V u, V v) {
   const V t = hn::Sub(position, arcs.first);
-  const Curve<V> cu = curve_of(d, arcs.u, t), cv = curve_of(d, arcs.v, t);
+  const Curve<V> cu = curve_of(d, arcs.uv, t), cv = curve_of(d, arcs.uv + arc_terms, t);
   const V away_u = hn::Sub(cu.value, u), away_v = hn::Sub(cv.value, v);
   const V along = hn::MulAdd(away_u, cu.first, hn::Mul(away_v, cv.first));
   const V speed = hn::MulAdd(cu.first, cu.first, hn::Mul(cv.first, cv.first));
@@ -137,7 +133,7 @@ std::size_t ColourTemperatures(const double* xy, const double* table, double* ke
     position = hn::Sub(position, last_step);
 
     const auto t = hn::Sub(position, arcs.first);
-    const auto cu = curve_of(d, arcs.u, t), cv = curve_of(d, arcs.v, t);
+    const auto cu = curve_of(d, arcs.uv, t), cv = curve_of(d, arcs.uv + arc_terms, t);
     const auto speed = hn::Sqrt(hn::MulAdd(cu.first, cu.first, hn::Mul(cv.first, cv.first)));
     // (q - c) . n, n the tangent turned left: (-c'_v, c'_u).
     const auto duv = hn::Div(hn::MulSub(hn::Sub(v, cv.value), cu.first, hn::Mul(hn::Sub(u, cu.value), cv.first)), speed);
