@@ -1,36 +1,11 @@
 // What the readers take from the heap, counted: at most four times the file and 1 MB, and at most 1 MB for a file refused for its counts.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
 #include <string>
 
+#include "counted_heap.h"
 #include "importers/eulumdat/eulumdat.h"
 #include "importers/ies/ies.h"
-
-namespace {
-std::size_t held = 0, most_held = 0;
-
-struct alignas(std::max_align_t) Header {
-  std::size_t size;
-};
-}  // namespace
-
-void* operator new(std::size_t size) {
-  void* const memory = std::malloc(sizeof(Header) + size);
-  if (memory == nullptr) throw std::bad_alloc();
-  static_cast<Header*>(memory)->size = size;
-  held += size;
-  most_held = std::max(most_held, held);
-  return static_cast<Header*>(memory) + 1;
-}
-void operator delete(void* memory) noexcept {
-  if (memory == nullptr) return;
-  Header* const header = static_cast<Header*>(memory) - 1;
-  held -= header->size;
-  std::free(header);
-}
-void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
 
 namespace etendue {
 namespace {
@@ -38,12 +13,11 @@ namespace {
 constexpr std::size_t megabyte = 1'000'000;
 using Read = Result<PhotometricFile>(std::span<const std::byte>, const std::string&, const PhotometricOptions&);
 
-// Bytes beyond what was held before; whether it was read.
+// Bytes that reading takes; whether it was read.
 std::pair<std::size_t, bool> peak_of(Read* read, const std::string& text) {
-  const std::size_t before = held;
-  most_held = held;
-  const bool ok = read(std::as_bytes(std::span(text)), "lamp", {}).ok();
-  return {most_held - before, ok};
+  bool ok = false;
+  const std::size_t bytes = test::peak_heap_of([&] { ok = read(std::as_bytes(std::span(text)), "lamp", {}).ok(); });
+  return {bytes, ok};
 }
 
 std::string repeated(const std::string& what, std::size_t count) {

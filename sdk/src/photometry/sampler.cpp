@@ -181,14 +181,17 @@ WebSampler::Polar WebSampler::polar_for_share(const Cell& c, double share) const
   // Newton on the share below, and bisection where that leaves the bracket.
   const double from = w.from_deg, to = web_->polar().nodes()[c.interval + 1];
   const std::size_t next_plane = web_->azimuth().nodes().size() < 2 ? c.plane : c.plane + 1;
-  const double whole = web_->profile_integral(c.plane, c.interval, from, to) + web_->profile_integral(next_plane, c.interval, from, to);
+  const auto integral = [&](double end) {
+    return web_->profile_integral(c.plane, c.interval, from, end) + web_->profile_integral(next_plane, c.interval, from, end);
+  };
+  const double whole = integral(to), wanted = share * whole;
   double lo = from, hi = to, angle = from + (to - from) * linear_inverse(sides[0] * w.sine, sides[1] * w.end_sine, share);
   for (int k = 0; k < 60 && hi - lo > 1e-14 * to; ++k) {
-    const double beyond = share_below(c, angle) - share, sine = std::sin(angle * degree), cosine = std::cos(angle * degree);
+    const double beyond = (angle > from ? integral(angle) : 0) - wanted, sine = std::sin(angle * degree), cosine = std::cos(angle * degree);
     (beyond > 0 ? hi : lo) = angle;
     const double density =
         (web_->profile(c.plane, c.interval, angle, cosine) + web_->profile(next_plane, c.interval, angle, cosine)) * sine;
-    const double next = density > 0 ? angle - beyond * whole / (density * degree) : lo;
+    const double next = density > 0 ? angle - beyond / (density * degree) : lo;
     const double moved = next - angle;
     angle = next > lo && next < hi ? next : 0.5 * (lo + hi);
     if (next > lo && next < hi && std::abs(moved) < 1e-13 * to) break;
