@@ -243,9 +243,12 @@ void bind_web(nb::module_& m) {
           "sample",
           [](const Web& w, const Array<double>& u) {
             const Array<double> rows = checked_rows(u, 2);
-            const WebSampler sampler(w.value);
-            return filled<double, 5>(extents_of(rows, rows.ndim() - 1), rows.size() / 2, [&](std::size_t i) {
-              const WebSampler::Sample s = sampler.sample({rows.data()[2 * i], rows.data()[2 * i + 1]});
+            std::vector<Vec2d> points(rows.size() / 2);
+            for (std::size_t i = 0; i < points.size(); ++i) points[i] = {rows.data()[2 * i], rows.data()[2 * i + 1]};
+            std::vector<WebSampler::Sample> samples(points.size());
+            static_cast<void>(WebSampler(w.value).sample(points, samples));
+            return filled<double, 5>(extents_of(rows, rows.ndim() - 1), samples.size(), [&](std::size_t i) {
+              const WebSampler::Sample& s = samples[i];
               return Result<std::array<double, 5>>(std::array{s.direction.x, s.direction.y, s.direction.z, s.pdf, s.cd});
             });
           },

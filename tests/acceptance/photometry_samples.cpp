@@ -129,15 +129,21 @@ nlohmann::json tested(const std::string& name, const IntensityWeb& web, int samp
   // Of f / pdf over the flux, with f as the sampler states it and as the web is evaluated in the direction: both have no variance.
   double stated_off = 0, sum_of_squares = 0;
   int in_the_dark = 0;
-  for (int i = 0; i < samples; ++i) {
-    const double x = uniform();
-    const WebSampler::Sample s = sampler.sample({x, uniform()});
-    const double cd = web.towards(s.direction);
-    in_the_dark += s.pdf > 0 ? 0 : 1;
-    const double off = cd / s.pdf / web.flux_lm() - 1;
-    stated_off = std::max(stated_off, std::abs(s.cd / s.pdf / web.flux_lm() - 1));
-    sum_of_squares += off * off;
-    ++found[bins.bin_of(place_of(web, s.direction))];
+  std::vector<Vec2d> u(4096);
+  std::vector<WebSampler::Sample> drawn(u.size());
+  for (int left = samples; left > 0; left -= static_cast<int>(u.size())) {
+    for (Vec2d& v : u) {
+      v.x = uniform();
+      v.y = uniform();
+    }
+    if (!sampler.sample(u, drawn)) std::abort();
+    for (const WebSampler::Sample& s : std::span(drawn).first(static_cast<std::size_t>(std::min(left, static_cast<int>(u.size()))))) {
+      const double off = web.towards(s.direction) / s.pdf / web.flux_lm() - 1;
+      in_the_dark += s.pdf > 0 ? 0 : 1;
+      stated_off = std::max(stated_off, std::abs(s.cd / s.pdf / web.flux_lm() - 1));
+      sum_of_squares += off * off;
+      ++found[bins.bin_of(place_of(web, s.direction))];
+    }
   }
   // Bins that expect too few to be normal are one.
   double statistic = 0, rest = 0, rest_found = 0;

@@ -104,7 +104,11 @@ int Bench::run(int argc, char** argv) {
     }
     ++i;
   }
-  tasks_.remove_if([&](const Task& task) { return task.name().find(only) == std::string::npos; });
+  for (auto task = tasks_.begin(); task != tasks_.end();) {
+    const auto next = std::next(task);
+    if (task->name().find(only) == std::string::npos) left_out_.splice(left_out_.end(), tasks_, task);
+    task = next;
+  }
   for (Task& task : tasks_) task.measure(rounds, turn_ms);
   json ? print_json(tasks_) : print(tasks_);
   return 0;

@@ -47,7 +47,7 @@ class Bench {
   int run(int argc, char** argv);
 
  private:
-  std::list<Task> tasks_;
+  std::list<Task> tasks_, left_out_;
 };
 
 // Keeps the compiler from leaving out work whose result nobody reads.

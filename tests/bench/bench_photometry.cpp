@@ -1,6 +1,8 @@
-// Photometric files: reading, lookups and sampling, beside a bare loop and the usual way (strtod; bilinear with acos and atan2).
+// Photometric files: reading, lookups and sampling, beside a bare loop and the usual way (strtod; bilinear with acos and atan2); then each
+// figure beside its limit. Exit 1 beyond one. Nanoseconds are this machine's and its other work's; ratios are of one run.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -110,6 +112,43 @@ Data data_of(int planes, int angles) {
   return d;
 }
 
+// What a figure of the table has to be: at most, or at least, so much.
+struct Limit {
+  std::string what;
+  const Task* task;
+  std::function<double(const std::vector<Contender>&)> value;
+  double limit;
+  bool at_least;
+};
+std::vector<Limit> limits;
+
+// False where one is missed. Tasks that were left out say nothing.
+bool print_limits() {
+  bool good = true;
+  fmt::print("\n");
+  for (const Limit& l : limits) {
+    if (!(l.task->contenders().front().ns > 0)) continue;
+    const double value = l.value(l.task->contenders());
+    const bool met = l.at_least ? value >= l.limit : value <= l.limit;
+    good = good && met;
+    fmt::print("{:<78} {:>8.2f}  limit {} {:>5.2f}  {}\n", l.what, value, l.at_least ? ">=" : "<=", l.limit, met ? "ok" : "MISSED");
+  }
+  return good;
+}
+
+// By name, in nanoseconds; the peer is the last one of each task.
+double ns_of(const std::vector<Contender>& all, const char* name) {
+  return std::find_if(all.begin(), all.end(), [&](const Contender& c) { return c.name == name; })->ns;
+}
+void limit_of(const Task& task, const char* name, double most_ns) {
+  limits.push_back(
+      {fmt::format("{}, {}: ns", task.name(), name), &task, [name](const auto& all) { return ns_of(all, name); }, most_ns, false});
+}
+void limit_over(const Task& task, const char* slow, const char* fast, double limit, bool at_least) {
+  limits.push_back({fmt::format("{}: {} over {}", task.name(), slow, fast), &task,
+                    [=](const auto& all) { return ns_of(all, slow) / ns_of(all, fast); }, limit, at_least});
+}
+
 void rows(Bench& bench, const char* size, const Data& d) {
   static double sink = 0;
   const std::size_t bytes = d.text.size();
@@ -129,6 +168,9 @@ void rows(Bench& bench, const char* size, const Data& d) {
     const auto values = by_strtod(d.text);
     keep(values.data());
   });
+  limit_over(parse, "etendue, fully validated", "from_chars loop", 1.25, false);
+  limit_over(parse, "from_chars loop", "etendue, header only", 5, true);
+  limit_over(parse, "strtod", "etendue, fully validated", 3, true);
   const std::size_t n = d.angles.size();
   Task& angles = bench.task(fmt::format("lookup {} from angles", size), n);
   angles.contender("etendue", Kind::ours, "", [&d] {
@@ -139,6 +181,8 @@ void rows(Bench& bench, const char* size, const Data& d) {
     for (const WebAngles& a : d.angles) sink += d.usual.at(a.horizontal_deg, a.vertical_deg);
     keep(&sink);
   });
+  limit_of(angles, "etendue", 10);
+  limit_over(angles, "bisection, bilinear", "etendue", 3, true);
   Task& vectors = bench.task(fmt::format("lookup {} from a vector", size), n);
   vectors.contender("etendue", Kind::ours, "", [&d] {
     for (const Vec3d& u : d.directions) sink += d.web.towards(u);
@@ -156,12 +200,21 @@ void rows(Bench& bench, const char* size, const Data& d) {
     for (const Vec3d& u : d.directions) sink += d.usual.towards(u);
     keep(&sink);
   });
+  limit_of(vectors, "etendue, batch of floats", 20);
+  limit_over(vectors, "acos, atan2, bisection, bilinear", "etendue, batch of floats", 3, true);
+  limit_over(vectors, "acos, atan2, bisection, bilinear", "etendue", 3, true);
   static std::list<WebSampler> samplers;
   const WebSampler* const sampler = &samplers.emplace_back(d.web);
   Task& sampling = bench.task(fmt::format("sample {}", size), n);
   sampling.contender("etendue", Kind::ours, "", [&d, sampler] {
     for (const Vec2d& u : d.squares) sink += sampler->sample(u).cd;
     keep(&sink);
+  });
+  sampling.contender("etendue, batch", Kind::ours, "1e-12", [&d, sampler] {
+    static std::vector<WebSampler::Sample> samples;
+    samples.resize(d.squares.size());
+    sink += sampler->sample(d.squares, samples) ? samples[0].cd : 0;
+    keep(samples.data());
   });
   // Without a sampler: uniform directions, kept in proportion to their intensity.
   sampling.contender("rejection, acos, atan2, bilinear", Kind::peer, "", [&d, n] {
@@ -179,6 +232,8 @@ void rows(Bench& bench, const char* size, const Data& d) {
     }
     keep(&sink);
   });
+  limit_of(sampling, "etendue, batch", 60);
+  limit_over(sampling, "rejection, acos, atan2, bilinear", "etendue, batch", 3, true);
 }
 
 }  // namespace
@@ -190,5 +245,7 @@ int main(int argc, char** argv) {
   Bench bench;
   rows(bench, "5x37", small);
   rows(bench, "361x263", large);
-  return bench.run(argc, argv);
+  const int status = bench.run(argc, argv);
+  const bool table = std::none_of(argv, argv + argc, [](const char* word) { return std::strcmp(word, "--json") == 0; });
+  return status != 0 || !table || print_limits() ? status : 1;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "instruction_sets.h"
 #include "photometry_builder.h"
 
 namespace etendue {
@@ -95,10 +96,65 @@ TEST(WebSampler, SamplesFollowTheWeb) {
   }
 }
 
+// Many at once are each what it is alone, wherever the table makes the inversion hard: at poles, beside zeros, in intervals of 90 degrees.
+// A vector's place among the others and the length of the whole change nothing.
+TEST(WebSampler, ManyAtOnceAreEachTheSame) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Vec2d> u{{0, 0}, {0, 0.999}, {1 - 0x1p-53, 0.5}, {0.5, 0}, {1e-12, 0.3}, {1 - 1e-12, 0.7}};
+  while (u.size() < 1003) u.push_back({uniform(random), uniform(random)});
+  std::vector<IntensityDistribution> all = distributions();
+  all.push_back(distribution_of(WebType::c, WebSymmetry::none, {0, 90, 180}, {0, 90, 180, 270}, bumpy));
+  all.push_back(distribution_of(WebType::c, WebSymmetry::none, steps(0, 180, 5), steps(0, 355, 5),
+                                [](const Vec3d& v) { return std::max(0.0, std::sin(9 * v.x) - v.z); }));
+  for (const auto& d : all) {
+    for (const WebFrame& frame : {WebFrame{}, WebFrame{true, 33}}) {
+      const IntensityWeb web = test::web_of(d, Interpolation::linear, frame);
+      const WebSampler sampler(web);
+      on_each_instruction_set([&] {
+        std::vector<WebSampler::Sample> samples(u.size()), few(7);
+        ASSERT_TRUE(sampler.sample(u, samples));
+        ASSERT_TRUE(sampler.sample(std::span(u).subspan(100, 7), few));
+        for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(few[i].cd, samples[100 + i].cd);
+        for (std::size_t i = 0; i < u.size(); ++i) {
+          const WebSampler::Sample one = sampler.sample(u[i]), &s = samples[i];
+          // Where there is little light, the last digit of u is a long way; no table changes by more than its peak a degree.
+          const double way = 1e-12 + 1e-15 * web.max_cd() / one.cd;
+          ASSERT_NEAR(length(s.direction - one.direction), 0, way) << name_of(d.grid.type) << " " << i;
+          ASSERT_NEAR(s.cd, one.cd, 60 * way * web.max_cd());
+          EXPECT_NEAR(s.cd / s.pdf / web.flux_lm(), 1, 1e-12);
+        }
+      });
+    }
+  }
+}
+
+TEST(WebSampler, OtherInterpolationsAreDrawnOneByOne) {
+  const std::vector<Vec2d> u{{0.3, 0.4}, {0.8, 0.1}};
+  for (const Interpolation interpolation : {Interpolation::cosine, Interpolation::cubic}) {
+    const IntensityWeb web = test::web_of(distributions()[0], interpolation);
+    const WebSampler sampler(web);
+    std::vector<WebSampler::Sample> samples(2);
+    ASSERT_TRUE(sampler.sample(u, samples));
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(samples[i].cd, sampler.sample(u[i]).cd);
+  }
+}
+
+TEST(WebSampler, SizesMustAgree) {
+  const IntensityWeb web = test::web_of(distributions()[0]);
+  std::vector<WebSampler::Sample> samples(3);
+  const Status done = WebSampler(web).sample(std::vector<Vec2d>(2), samples);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, "BATCH_SIZES_DIFFER");
+}
+
 TEST(WebSampler, ADarkWebGivesNothing) {
   const auto d = distribution_of(WebType::c, WebSymmetry::rotational, {0, 90}, {0}, [](const Vec3d&) { return 0; });
   const IntensityWeb web = test::web_of(d);
   EXPECT_EQ(WebSampler(web).sample({0.3, 0.4}).pdf, 0);
+  std::vector<WebSampler::Sample> samples(1);
+  ASSERT_TRUE(WebSampler(web).sample(std::vector<Vec2d>{{0.3, 0.4}}, samples));
+  EXPECT_EQ(samples[0].pdf, 0);
 }
 
 }  // namespace

@@ -106,8 +106,9 @@ class IntensityWeb {
   // folded.
   const AngleAxis& polar() const { return polar_; }
   const AngleAxis& azimuth() const { return azimuth_; }
-  // cd at a node.
+  // cd at a node, and of all of them, the polar angle fastest.
   double node(std::size_t azimuth, std::size_t polar) const { return candela_[azimuth * polar_.nodes().size() + polar]; }
+  const std::vector<double>& candelas() const { return candela_; }
   // How often the sphere repeats the table: 1, 2 or 4.
   int copies() const;
 

@@ -4,6 +4,7 @@
 #include "etendue/intensity_web.h"
 
 #include <array>
+#include <span>
 
 namespace etendue {
 
@@ -21,13 +22,27 @@ class WebSampler {
   explicit WebSampler(const IntensityWeb& web);
 
   Sample sample(const Vec2d& u) const;  // u in [0, 1)^2
+  // Of many at once: the same to what the last digits of u change. Linear interpolation runs in vectors on the best instruction set that
+  // the machine has; the others are drawn one by one. Errors: BATCH_SIZES_DIFFER.
+  Status sample(std::span<const Vec2d> u, std::span<Sample> samples) const;
   double pdf(const Vec3d& direction) const { return web_->flux_lm() > 0 ? web_->towards(direction) / web_->flux_lm() : 0; }
   // The u for which sample() gives this direction, to 1e-9; anything where the web is dark.
   Vec2d inverse(const Vec3d& direction) const;
 
+  struct Rows;  // of numbers, that vectors are made of
+
  private:
   struct Cell {
     std::uint32_t plane, interval;
+  };
+  // The cell in whose part of [0, 1) a random number is, how far it is in there, and how large that part is.
+  struct Found {
+    Cell cell;
+    double beyond, of;
+  };
+  // What a copy of the table does to its angles: azimuth' = shift + sign x azimuth, and the sign of the cosine of the polar angle.
+  struct Copy {
+    double shift_deg, sign, polar_sign;
   };
   struct Polar {
     double angle_deg, sine, cosine;
@@ -40,15 +55,22 @@ class WebSampler {
   struct Part {
     double a, b, share;
   };
+  std::uint32_t part_of(double u) const;                 // index of first_
+  Found found_from(std::uint32_t cell, double u) const;  // from the cell of the part's lower end
+  void look_up(std::span<const Vec2d> u, Rows& rows) const;
   std::array<double, 2> ends(const Cell& cell) const;  // mean of the cell's two planes at both polar angles
   double share_below(const Cell& cell, double polar_deg) const;
   Polar polar_for_share(const Cell& cell, double share) const;
   static Polar polar_for_share(const Interval& interval, const Part& part);
   static Polar bracketed(const Interval& interval, const Part& part);
 
+  // After a step of less than this share of the distance to the nearer end, its fourth power is left.
+  static constexpr double last_step = 5e-4;
+
   const IntensityWeb* web_;
   bool linear_;
   int copies_;
+  std::array<Copy, 4> copy_{};
   double inverse_flux_ = 0;
   std::vector<Interval> interval_;
   std::uint32_t intervals_ = 0, planes_ = 0;  // of the table, minus one; rotational: one plane

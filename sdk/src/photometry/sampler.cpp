@@ -66,6 +66,18 @@ WebSampler::WebSampler(const IntensityWeb& web)
   }
   if (!(sum > 0)) return;
   inverse_flux_ = 1 / web.flux_lm();
+  const double turn = web.type() == WebType::c ? std::fmod(web.frame().turn_deg, 360) : 0;
+  for (int copy = 0; copy < copies_; ++copy) {
+    // A copy mirrors both angles or neither: two places say how.
+    const auto image = [&](double polar, double azimuth) {
+      const WebAngles own = web.unfolded(polar, azimuth, copy);
+      return web.type() == WebType::b   ? std::pair(own.horizontal_deg + 90, own.vertical_deg)
+             : web.type() == WebType::a ? std::pair(own.vertical_deg + 90, own.horizontal_deg)
+                                        : std::pair(own.vertical_deg, own.horizontal_deg);
+    };
+    const auto [polar, shift] = image(0, 0);
+    copy_[static_cast<std::size_t>(copy)] = {shift + turn, image(0, 90).second > shift ? 1.0 : -1.0, polar > 90 ? -1.0 : 1.0};
+  }
   for (double& r : running_) r /= sum;
   // Two parts a cell: few hold more than one border.
   const std::size_t parts = 2 * (running_.size() - 1);
@@ -121,9 +133,6 @@ Step step_from(const Interval& w, double a, double r, double wanted, double s) {
   const double below = density * (square - f * slope) + f * f * (bend * (1.0 / 6));
   return {-f * (square - 0.5 * f * slope) / (below != 0 ? below : 1), t.sine, t.cosine, f, density > 0 && below > 0};
 }
-
-// After a step of less than this share of the distance to the nearer end, its fourth power is left.
-constexpr double last_step = 5e-4;
 
 // Sine and cosine turned by a last step, of whose series two terms are enough.
 SineCosine turned_by(const Step& step) {
@@ -199,18 +208,30 @@ WebSampler::Polar WebSampler::polar_for_share(const Cell& c, double share) const
   return {angle, std::sin(angle * degree), std::cos(angle * degree)};
 }
 
+namespace {
+
+constexpr double below_one = 1 - 0x1p-53;  // the last border, 1, is never passed
+
+}  // namespace
+
+std::uint32_t WebSampler::part_of(double u) const {
+  const std::size_t parts = first_.size();
+  return static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(std::min(u, below_one) * static_cast<double>(parts)), parts - 1));
+}
+
+WebSampler::Found WebSampler::found_from(std::uint32_t cell, double u) const {
+  const double x = std::min(u, below_one);
+  // Whether the first border is passed is as good as random: no branch for that step.
+  cell += running_[cell + 1] <= x ? 1 : 0;
+  while (running_[cell + 1] <= x) ++cell;
+  return {{cell / intervals_, cell % intervals_}, x - running_[cell], running_[cell + 1] - running_[cell]};
+}
+
 WebSampler::Sample WebSampler::sample(const Vec2d& u) const {
   if (first_.empty()) return {};
-  const std::size_t parts = first_.size();
-  constexpr double below_one = 1 - 0x1p-53;  // the last border, 1, is never passed
-  const double ux = std::min(u.x, below_one);
-  std::size_t cell = first_[std::min(static_cast<std::size_t>(ux * static_cast<double>(parts)), parts - 1)];
-  // Whether the first border is passed is as good as random: no branch for that step.
-  cell += running_[cell + 1] <= ux ? 1 : 0;
-  while (running_[cell + 1] <= ux) ++cell;
-  const auto number = static_cast<std::uint32_t>(cell);
-  const Cell c{number / intervals_, number % intervals_};
-  const double below = running_[cell], share = std::clamp((ux - below) / (running_[cell + 1] - below), 0.0, 1.0);
+  const Found found = found_from(first_[part_of(u.x)], u.x);
+  const Cell& c = found.cell;
+  const double share = std::clamp(found.beyond / found.of, 0.0, 1.0);
   const Interval& w = interval_[c.interval];
   const std::vector<double>& phi = web_->azimuth().nodes();
   const bool one_plane = phi.size() < 2;
