@@ -88,7 +88,7 @@ struct Data {
   std::vector<WebAngles> angles;
   std::vector<Vec3d> directions;
   std::vector<Vec2d> squares;
-  std::vector<float> x{}, y{}, z{};  // of the directions
+  std::vector<float> c{}, gamma{}, x{}, y{}, z{};  // of the directions
 };
 
 Data data_of(int planes, int angles) {
@@ -105,6 +105,8 @@ Data data_of(int planes, int angles) {
     d.directions.push_back({r * std::cos(phi), r * std::sin(phi), z});
     d.angles.push_back(angles_of(WebType::c, d.directions.back()));
     d.squares.push_back({uniform(random), uniform(random)});
+    d.c.push_back(static_cast<float>(d.angles.back().horizontal_deg));
+    d.gamma.push_back(static_cast<float>(d.angles.back().vertical_deg));
     d.x.push_back(static_cast<float>(d.directions.back().x));
     d.y.push_back(static_cast<float>(d.directions.back().y));
     d.z.push_back(static_cast<float>(d.directions.back().z));
@@ -177,19 +179,26 @@ void rows(Bench& bench, const char* size, const Data& d) {
     for (const WebAngles& a : d.angles) sink += d.web.at(a.horizontal_deg, a.vertical_deg);
     keep(&sink);
   });
+  static std::list<WebBatch> batches;
+  const WebBatch* const batch = &batches.emplace_back(d.web);
+  angles.contender("etendue, batch of floats", Kind::ours, "2e-6 of the peak, 1e-4 deg", [&d, batch] {
+    static std::vector<float> cd;
+    cd.resize(d.c.size());
+    sink += batch->at(d.c, d.gamma, cd, 0) ? cd[0] : 0;
+    keep(cd.data());
+  });
   angles.contender("bisection, bilinear", Kind::peer, "", [&d] {
     for (const WebAngles& a : d.angles) sink += d.usual.at(a.horizontal_deg, a.vertical_deg);
     keep(&sink);
   });
-  limit_of(angles, "etendue", 10);
+  limit_of(angles, "etendue, batch of floats", 10);
+  limit_over(angles, "bisection, bilinear", "etendue, batch of floats", 3, true);
   limit_over(angles, "bisection, bilinear", "etendue", 3, true);
   Task& vectors = bench.task(fmt::format("lookup {} from a vector", size), n);
   vectors.contender("etendue", Kind::ours, "", [&d] {
     for (const Vec3d& u : d.directions) sink += d.web.towards(u);
     keep(&sink);
   });
-  static std::list<WebBatch> batches;
-  const WebBatch* const batch = &batches.emplace_back(d.web);
   vectors.contender("etendue, batch of floats", Kind::ours, "2e-6 of the peak, 1e-4 deg", [&d, batch] {
     static std::vector<float> cd;
     cd.resize(d.x.size());

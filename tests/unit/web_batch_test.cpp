@@ -103,6 +103,43 @@ TEST(WebBatch, IsTheDoubleFunctionWithinItsBound) {
   }
 }
 
+TEST(WebBatch, FromAnglesItIsTheDoubleFunctionWithinItsBound) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> around(-720, 720), upwards(-20, 200);
+  std::vector<float> c{0, 360, -360, 720, 90, 180, 0, 310, 355}, gamma{0, 0, 90, 180, 90, 77.5f, 180, 3, 90};
+  while (c.size() < 2003) {
+    c.push_back(around(random));
+    gamma.push_back(upwards(random));
+  }
+  std::vector<float> cd(c.size());
+  for (const auto& d : distributions()) {
+    for (const WebFrame& frame : {WebFrame{}, WebFrame{true, 33}}) {
+      const IntensityWeb web = test::web_of(d, Interpolation::linear, frame);
+      const WebBatch batch(web);
+      const double bound = 2e-6 * web.max_cd() + 1e-4 * steepest(web);
+      on_each_instruction_set([&] {
+        const BatchOutcome done = batch.at(c, gamma, cd, -1);
+        ASSERT_TRUE(done);
+        EXPECT_EQ(*done, 0u);
+        for (std::size_t i = 0; i < cd.size(); ++i)
+          ASSERT_NEAR(cd[i], web.at(c[i], gamma[i]), bound)
+              << name_of(d.grid.type) << " " << name_of(d.grid.symmetry) << " " << c[i] << " " << gamma[i];
+      });
+    }
+  }
+  const IntensityWeb web = test::web_of(distributions()[0]);
+  const WebBatch batch(web);
+  const std::vector<float> zero(4), wrong{721, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 0};
+  std::vector<float> found(4);
+  on_each_instruction_set([&] {
+    const BatchOutcome by_c = batch.at(wrong, zero, found, -7), by_gamma = batch.at(zero, wrong, found, -7);
+    ASSERT_TRUE(by_c && by_gamma);
+    EXPECT_EQ(*by_c + *by_gamma, 6u);
+    EXPECT_EQ(found[0], -7);
+  });
+  EXPECT_EQ(batch.at(wrong, zero, std::span(found).first(3), 0).error().code, "BATCH_SIZES_DIFFER");
+}
+
 TEST(WebBatch, OtherInterpolationsAreTheDoubleFunction) {
   const Directions directions(100);
   std::vector<float> cd(directions.x.size());

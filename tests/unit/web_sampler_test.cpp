@@ -71,7 +71,8 @@ TEST(WebSampler, SamplesFollowTheWeb) {
       double total = 0;
       for (int b = 0; b < bins; ++b) {
         for (int i = 0; i < fine * fine; ++i) {
-          const double z = -1 + 2 * (b / bins_phi + (i / fine + 0.5) / fine) / bins_z;
+          const int row = b / bins_phi, fine_row = i / fine;
+          const double z = -1 + 2 * (row + (fine_row + 0.5) / fine) / bins_z;
           const double phi = 2 * pi * (b % bins_phi + (i % fine + 0.5) / fine) / bins_phi, r = std::sqrt(1 - z * z);
           expected[static_cast<std::size_t>(b)] += web.towards({r * std::cos(phi), r * std::sin(phi), z});
         }
@@ -82,7 +83,8 @@ TEST(WebSampler, SamplesFollowTheWeb) {
         const int row = std::min(static_cast<int>((v.z + 1) / 2 * bins_z), bins_z - 1);
         double turn = std::atan2(v.y, v.x) / (2 * pi);
         if (turn < 0) turn += 1;
-        found[static_cast<std::size_t>(row * bins_phi + std::min(static_cast<int>(turn * bins_phi), bins_phi - 1))] += 1;
+        found[static_cast<std::size_t>(row) * bins_phi + std::min(static_cast<std::size_t>(turn * bins_phi), std::size_t{bins_phi - 1})] +=
+            1;
       }
       double statistic = 0, counted = 0;
       for (int b = 0; b < bins; ++b) {

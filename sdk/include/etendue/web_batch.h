@@ -9,9 +9,9 @@
 
 namespace etendue {
 
-// IntensityWeb::towards() of the same (float) directions, within 2e-6 of the web's peak and what a turn of 1e-4 degrees of polar angle and
-// azimuth changes: where a table ends brightly, that much of the edge is on one side or the other. Linear interpolation runs in vectors;
-// the others are evaluated one by one, in double.
+// IntensityWeb::towards() and at() of the same (float) directions and angles, within 2e-6 of the web's peak and what a turn of 1e-4 degrees
+// of polar angle and azimuth changes: where a table ends brightly, that much of the edge is on one side or the other. Linear interpolation
+// runs in vectors; the others are evaluated one by one, in double.
 class WebBatch {
  public:
   // Keeps a reference: the web must outlive it. 4 bytes a node of the table and 16 an angle beside it.
@@ -21,6 +21,9 @@ class WebBatch {
   // BATCH_SIZES_DIFFER.
   BatchOutcome towards(std::span<const float> x, std::span<const float> y, std::span<const float> z, std::span<float> cd,
                        float where_none) const;
+
+  // The same from angles, C and gamma from -720 to 720 degrees: IntensityWeb::at() within the same bound. Webs of type C run in vectors.
+  BatchOutcome at(std::span<const float> c_deg, std::span<const float> gamma_deg, std::span<float> cd, float where_none) const;
 
   struct Table;  // the web's, in float
 

@@ -86,12 +86,42 @@ HWY_INLINE Place<V, I> place(D d, const WebBatch::Table::Axis& axis, V x) {
   return {i, hn::Min(hn::Max(position, zero), one)};
 }
 
+// From the azimuth of type C, turned already, into the table's: `past` its first plane, mirrored.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V folded(D d, const WebBatch::Table& t, V azimuth) {
+  V past = hn::Sub(azimuth, hn::Set(d, t.azimuth.start));
+  past = hn::NegMulAdd(hn::Floor(hn::Mul(past, hn::Set(d, 1.0f / 360))), hn::Set(d, 360.0f), past);
+  past = hn::IfThenElse(hn::Gt(past, hn::Set(d, t.half_deg)), hn::Sub(hn::Set(d, 360.0f), past), past);
+  past = hn::IfThenElse(hn::Gt(past, hn::Set(d, t.quarter_deg)), hn::Sub(hn::Set(d, 180.0f), past), past);
+  return hn::Add(past, hn::Set(d, t.azimuth.start));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V candelas(D d, const WebBatch::Table& t, V polar, V azimuth) {
+  const hn::RebindToSigned<D> di;
+  auto lit = hn::And(hn::Ge(polar, hn::Set(d, t.polar.start)), hn::Le(polar, hn::Set(d, t.polar.end)));
+  const auto p = place(d, t.polar, polar);
+  const float* const table = t.candela.data();
+  const auto one = hn::Set(di, 1);
+  if (t.one_plane) {
+    const V near = hn::GatherIndex(d, table, p.interval), far = hn::GatherIndex(d, table, hn::Add(p.interval, one));
+    return hn::IfThenElseZero(lit, hn::MulAdd(p.position, hn::Sub(far, near), near));
+  }
+  if (t.type != WebType::c)
+    lit = hn::And(lit, hn::And(hn::Ge(azimuth, hn::Set(d, t.azimuth.start)), hn::Le(azimuth, hn::Set(d, t.azimuth.end))));
+  const auto a = place(d, t.azimuth, azimuth);
+  const auto first = hn::Add(hn::Mul(a.interval, hn::Set(di, t.stride)), p.interval), second = hn::Add(first, hn::Set(di, t.stride));
+  const V y0 = hn::GatherIndex(d, table, first), y1 = hn::GatherIndex(d, table, hn::Add(first, one));
+  const V z0 = hn::GatherIndex(d, table, second), z1 = hn::GatherIndex(d, table, hn::Add(second, one));
+  const V near = hn::MulAdd(p.position, hn::Sub(y1, y0), y0), far = hn::MulAdd(p.position, hn::Sub(z1, z0), z0);
+  return hn::IfThenElseZero(lit, hn::MulAdd(a.position, hn::Sub(far, near), near));
+}
+
 // The number of lanes outside the domain.
 template <class D>
 HWY_INLINE std::size_t lookup(D d, const WebBatch::Table& t, const float* xs, const float* ys, const float* zs, float* cd,
                               float where_none) {
   using V = hn::Vec<D>;
-  const hn::RebindToSigned<D> di;
   const V x = hn::LoadU(d, xs), y = hn::Mul(hn::LoadU(d, ys), hn::Set(d, t.y_sign)), z = hn::LoadU(d, zs), minus_z = hn::Neg(z);
   const V xx = hn::Mul(x, x), yy = hn::Mul(y, y), zz = hn::Mul(z, z);
   // From the longest component, whose square may leave the range of a float.
@@ -102,13 +132,7 @@ HWY_INLINE std::size_t lookup(D d, const WebBatch::Table& t, const float* xs, co
   if (t.type == WebType::c) {
     polar = atan2_deg(d, hn::Sqrt(hn::Add(xx, yy)), minus_z);
     azimuth = hn::Sub(atan2_deg(d, y, x), hn::Set(d, t.turn_deg));
-    if (!t.one_plane) {
-      V past = hn::Sub(azimuth, hn::Set(d, t.azimuth.start));
-      past = hn::NegMulAdd(hn::Floor(hn::Mul(past, hn::Set(d, 1.0f / 360))), hn::Set(d, 360.0f), past);
-      past = hn::IfThenElse(hn::Gt(past, hn::Set(d, t.half_deg)), hn::Sub(hn::Set(d, 360.0f), past), past);
-      past = hn::IfThenElse(hn::Gt(past, hn::Set(d, t.quarter_deg)), hn::Sub(hn::Set(d, 180.0f), past), past);
-      azimuth = hn::Add(past, hn::Set(d, t.azimuth.start));
-    }
+    if (!t.one_plane) azimuth = folded(d, t, azimuth);
   } else {
     const V ninety = hn::Set(d, 90.0f);
     if (t.type == WebType::a) {
@@ -122,45 +146,53 @@ HWY_INLINE std::size_t lookup(D d, const WebBatch::Table& t, const float* xs, co
     if (t.mirror_polar) polar = hn::Max(polar, hn::Sub(hn::Set(d, 180.0f), polar));
   }
 
-  auto lit = hn::And(hn::Ge(polar, hn::Set(d, t.polar.start)), hn::Le(polar, hn::Set(d, t.polar.end)));
-  const auto p = place(d, t.polar, polar);
-  const float* const table = t.candela.data();
-  const auto one = hn::Set(di, 1);
-  V value;
-  if (t.one_plane) {
-    const V near = hn::GatherIndex(d, table, p.interval), far = hn::GatherIndex(d, table, hn::Add(p.interval, one));
-    value = hn::MulAdd(p.position, hn::Sub(far, near), near);
-  } else {
-    if (t.type != WebType::c)
-      lit = hn::And(lit, hn::And(hn::Ge(azimuth, hn::Set(d, t.azimuth.start)), hn::Le(azimuth, hn::Set(d, t.azimuth.end))));
-    const auto a = place(d, t.azimuth, azimuth);
-    const auto first = hn::Add(hn::Mul(a.interval, hn::Set(di, t.stride)), p.interval), second = hn::Add(first, hn::Set(di, t.stride));
-    const V y0 = hn::GatherIndex(d, table, first), y1 = hn::GatherIndex(d, table, hn::Add(first, one));
-    const V z0 = hn::GatherIndex(d, table, second), z1 = hn::GatherIndex(d, table, hn::Add(second, one));
-    const V near = hn::MulAdd(p.position, hn::Sub(y1, y0), y0), far = hn::MulAdd(p.position, hn::Sub(z1, z0), z0);
-    value = hn::MulAdd(a.position, hn::Sub(far, near), near);
-  }
-  hn::StoreU(hn::IfThenElse(valid, hn::IfThenElseZero(lit, value), hn::Set(d, where_none)), d, cd);
+  hn::StoreU(hn::IfThenElse(valid, candelas(d, t, polar, azimuth), hn::Set(d, where_none)), d, cd);
   return hn::Lanes(d) - hn::CountTrue(d, valid);
+}
+
+template <class D>
+HWY_INLINE std::size_t lookup(D d, const WebBatch::Table& t, const float* cs, const float* gammas, float* cd, float where_none) {
+  using V = hn::Vec<D>;
+  const V c = hn::LoadU(d, cs), gamma = hn::LoadU(d, gammas);
+  const auto valid = hn::And(hn::Le(hn::Abs(c), hn::Set(d, 720.0f)), hn::Le(hn::Abs(gamma), hn::Set(d, 720.0f)));
+  const V turned = hn::IfThenElseZero(valid, hn::MulSub(c, hn::Set(d, t.y_sign), hn::Set(d, t.turn_deg)));
+  hn::StoreU(hn::IfThenElse(valid, candelas(d, t, gamma, folded(d, t, turned)), hn::Set(d, where_none)), d, cd);
+  return hn::Lanes(d) - hn::CountTrue(d, valid);
+}
+
+// body(inputs..., out), each of whole vectors; what is left at the end through vectors of its own, filled up with 1, which is in the
+// domain.
+template <std::size_t Inputs, class Body>
+HWY_INLINE std::size_t over_vectors(const float* const (&in)[Inputs], float* out, std::size_t count, Body body) {
+  const hn::ScalableTag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t without = 0, i = 0;
+  const float* at[Inputs];
+  for (; i + lanes <= count; i += lanes) {
+    for (std::size_t k = 0; k < Inputs; ++k) at[k] = in[k] + i;
+    without += body(at, out + i);
+  }
+  if (i == count) return without;
+  HWY_ALIGN float last[Inputs + 1][hn::MaxLanes(d)];
+  for (std::size_t k = 0; k < Inputs; ++k) {
+    std::fill_n(last[k], lanes, 1.0f);
+    std::copy(in[k] + i, in[k] + count, last[k]);
+    at[k] = last[k];
+  }
+  without += body(at, last[Inputs]);
+  std::copy_n(last[Inputs], count - i, out + i);
+  return without;
 }
 
 std::size_t Towards(const WebBatch::Table& t, const float* x, const float* y, const float* z, float* cd, std::size_t count,
                     float where_none) {
   const hn::ScalableTag<float> d;
-  const std::size_t lanes = hn::Lanes(d);
-  std::size_t without = 0, i = 0;
-  for (; i + lanes <= count; i += lanes) without += lookup(d, t, x + i, y + i, z + i, cd + i, where_none);
-  if (i == count) return without;
-  HWY_ALIGN float last[4][hn::MaxLanes(d)];
-  std::fill_n(last[2], lanes, 1.0f);  // a direction that is in the domain
-  std::fill_n(last[0], lanes, 0.0f);
-  std::fill_n(last[1], lanes, 0.0f);
-  std::copy(x + i, x + count, last[0]);
-  std::copy(y + i, y + count, last[1]);
-  std::copy(z + i, z + count, last[2]);
-  without += lookup(d, t, last[0], last[1], last[2], last[3], where_none);
-  std::copy_n(last[3], count - i, cd + i);
-  return without;
+  return over_vectors<3>({x, y, z}, cd, count,
+                         [&](const auto& in, float* out) { return lookup(d, t, in[0], in[1], in[2], out, where_none); });
+}
+std::size_t At(const WebBatch::Table& t, const float* c, const float* gamma, float* cd, std::size_t count, float where_none) {
+  const hn::ScalableTag<float> d;
+  return over_vectors<2>({c, gamma}, cd, count, [&](const auto& in, float* out) { return lookup(d, t, in[0], in[1], out, where_none); });
 }
 
 }  // namespace
@@ -172,6 +204,7 @@ namespace etendue {
 namespace {
 
 HWY_EXPORT(Towards);
+HWY_EXPORT(At);
 
 // As AngleAxis, in float: nodes that round to the same float leave an interval of no width, in which the position is 0.
 WebBatch::Table::Axis axis_of(const AngleAxis& from) {
@@ -255,6 +288,20 @@ BatchOutcome WebBatch::towards(std::span<const float> x, std::span<const float> 
     const float largest = std::max({std::abs(x[i]), std::abs(y[i]), std::abs(z[i])});
     const bool valid = largest >= 5e-7f && largest <= 1e15f && !std::isnan(x[i] + y[i] + z[i]);
     cd[i] = valid ? static_cast<float>(web_->towards({x[i], y[i], z[i]})) : where_none;
+    without += valid ? 0 : 1;
+  }
+  return without;
+}
+
+BatchOutcome WebBatch::at(std::span<const float> c_deg, std::span<const float> gamma_deg, std::span<float> cd, float where_none) const {
+  for (const std::size_t size : {gamma_deg.size(), cd.size()})
+    if (size != c_deg.size()) return batch_sizes_differ(c_deg.size(), size);
+  if (table_ && table_->type == WebType::c)
+    return HWY_DYNAMIC_DISPATCH(At)(*table_, c_deg.data(), gamma_deg.data(), cd.data(), c_deg.size(), where_none);
+  std::size_t without = 0;
+  for (std::size_t i = 0; i < c_deg.size(); ++i) {
+    const bool valid = std::abs(c_deg[i]) <= 720 && std::abs(gamma_deg[i]) <= 720;
+    cd[i] = valid ? static_cast<float>(web_->at(c_deg[i], gamma_deg[i])) : where_none;
     without += valid ? 0 : 1;
   }
   return without;
