@@ -11,7 +11,14 @@ inline constexpr double degree = 3.14159265358979323846 / 180;
 #if defined(__GNUC__)
 // Two doubles at once, where the compiler has them: an arithmetic operation on both costs what one does.
 using Pair = double __attribute__((vector_size(16)));
-inline Pair magnitude(Pair x) { return x < 0 ? -x : x; }
+using PairMask = decltype(Pair{} < Pair{});
+inline Pair magnitude(Pair x) {
+  return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x) & ~reinterpret_cast<PairMask>(Pair{-0.0, -0.0}));
+}
+inline Pair where(PairMask mask, Pair x) { return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x) & mask); }
+inline Pair negative_where(PairMask mask, Pair x) {
+  return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x) ^ (mask & reinterpret_cast<PairMask>(Pair{-0.0, -0.0})));
+}
 #else
 struct Pair {
   double first, second;
@@ -19,6 +26,8 @@ struct Pair {
 };
 #endif
 inline double magnitude(double x) { return std::abs(x); }
+inline double where(bool mask, double x) { return mask ? x : 0; }
+inline double negative_where(bool mask, double x) { return mask ? -x : x; }
 
 // The azimuth past the first plane of a table, from -360 to 360 degrees, folded into it: mirrored beyond half_deg, then beyond quarter_deg
 // (above 360 where nothing mirrors). Random directions mislead branches; of pairs the compiler makes none.
@@ -43,21 +52,24 @@ inline double folded_past(double past_deg, double half_deg, double quarter_deg) 
 // are as good as random, and a wrongly predicted branch costs as much as all of the rest.
 template <class T>
 T atan2_deg_of(T y, T x) {
-  const T zero = T{}, one = zero + 1;
-  const T ax = magnitude(x), ay = magnitude(y), longer = ax > ay ? ax : ay, shorter = ax > ay ? ay : ax;
+  const T zero = T{}, least = zero + 1e-320;
+  const T ax = magnitude(x), ay = magnitude(y);
+  const auto steep = ay > ax;
+  const T longer = steep ? ay : ax, shorter = steep ? ax : ay;
   constexpr double tan_eighth = 0.41421356237309503;
-  const T far = shorter > tan_eighth * longer ? one : zero;
-  const T numerator = shorter - far * longer, denominator = longer + far * shorter;
-  const T q = numerator / (denominator > zero ? denominator : one);
+  const auto far = shorter > tan_eighth * longer;
+  const T numerator = shorter - where(far, longer), denominator = longer + where(far, shorter);
+  const T q = numerator / (denominator > least ? denominator : least);
   const T z = q * q, z2 = z * z, z4 = z2 * z2, z8 = z4 * z4;
   const T low = (57.295779513082266 - 19.098593170963326 * z) + (11.459155890236373 - 8.185110428511402 * z) * z2;
   const T middle = (6.366162052836204 - 5.207917042687507 * z) + (4.396611939790152 - 3.7276536560288953 * z) * z2;
   const T high = 2.8789766247248187 - 1.4505274317065493 * z;
-  // From the octant to the circle: 45 + octant, then 90 - that, 180 - that, and the sign of y, in one sum, ready before the quotient is.
-  const T steep = ay > ax ? one : zero, back = x < zero ? one : zero, below = y < zero ? one : zero;
-  const T steeply = 1 - 2 * steep, backwards = 1 - 2 * back, sign = 1 - 2 * below;
-  const T base = sign * (180 * back + backwards * (90 * steep + steeply * (45 * far)));
-  return base + (sign * backwards * steeply) * q * (low + middle * z4 + high * z8);
+  // From the octant to the circle.
+  const auto back = x < zero, below = y < zero;
+  const T octant = q * (low + middle * z4 + high * z8) + where(far, zero + 45);
+  const T quadrant = negative_where(steep, octant) + where(steep, zero + 90);
+  const T half = negative_where(back, quadrant) + where(back, zero + 180);
+  return negative_where(below, half);
 }
 // Of two vectors (x, y), at the price of one.
 inline Pair two_atan2_deg(double y0, double x0, double y1, double x1) {
