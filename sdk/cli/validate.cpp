@@ -85,7 +85,7 @@ class Stage : public Progress {
 // Our picture with the asset's own models, to look at: rendered at half the size and with loose shadows, since nothing is judged by it.
 Result<Picture> authored_picture(const Scene& scene, RenderOptions options, Progress& progress) {
   options.mitsuba_model = false;
-  options.expected_noise = std::max(options.expected_noise, 0.1);
+  options.expected_noise = std::max(options.expected_noise, 0.25);
   const std::uint32_t width = options.width, height = options.height;
   options.width = (width + 1) / 2;
   options.height = (height + 1) / 2;

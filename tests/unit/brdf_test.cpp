@@ -212,6 +212,55 @@ TEST(Brdf, SamplingGivesTheAlbedo) {
   }
 }
 
+// What is reflected is an affine function of the base colour: pixels with a texture are computed from two colours. (Frostbite's model is
+// one but for metals, whose f90 falls where their colour is nearly black: there it stands with metal 0 and .3.)
+TEST(Brdf, IsAffineInTheBaseColour) {
+  const Vec3d view = normalised(Vec3d{0.6, 0.1, 0.4}), light = normalised(Vec3d{-0.5, 0.3, 0.6});
+  for (const double metal : {0.0, 0.3, 1.0}) {
+    const std::vector<Brdf (*)(const Rgb&, double)> models{
+        [](const Rgb& c, double) -> Brdf { return Lambert{c}; },
+        [](const Rgb& c, double m) -> Brdf {
+          return Principled{c, m, 0.4, 0.5};
+        },
+        [](const Rgb& c, double m) -> Brdf {
+          return Standard{c, std::min(m, 0.3), 0.4, 0.5};
+        },
+        [](const Rgb& c, double m) -> Brdf {
+          return MetalRough{c, m, 0.4, 1.5};
+        },
+        [](const Rgb& c, double) -> Brdf {
+          return two_colour_of({c, {0.2, 0.1, 0.3}, 0.6});
+        },
+    };
+    for (const auto& model : models) {
+      const Rgb black = brdf_cos(model({0, 0, 0}, metal), view, light), white = brdf_cos(model({1, 1, 1}, metal), view, light);
+      const Rgb colour{0.7, 0.2, 0.05}, mixed = black + (white - black) * colour, own = brdf_cos(model(colour, metal), view, light);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(own[c], mixed[c], 1e-14 * white[c]) << "metal " << metal << " channel " << c;
+    }
+  }
+}
+
+// highest_pdf is a bound over the hemisphere, and no loose one: GGX has its peak at the mirror direction, the cosine at the normal, and a
+// mixture, whose bound is the sum of both, reaches the larger: at least half.
+TEST(Brdf, HighestPdfIsABoundThatIsReached) {
+  for (const double alpha : {0.02, 0.3, 1.0}) {
+    for (const double nv : {0.1, 0.5, 1.0}) {
+      const Vec3d view{std::sqrt(1 - nv * nv), 0, nv}, mirror{-view.x, 0, nv};
+      for (const Brdf& brdf : every_model(alpha)) {
+        const double bound = highest_pdf(brdf, view);
+        double most = std::max(pdf_brdf(brdf, view, mirror), pdf_brdf(brdf, view, {0, 0, 1}));
+        for (int i = 0; i < 2000; ++i) {
+          const double z = (i + 0.5) / 2000, r = std::sqrt(1 - z * z), phi = 2 * pi * std::fmod(i * 0.6180339887498949, 1.0);
+          most = std::max(most, pdf_brdf(brdf, view, {r * std::cos(phi), r * std::sin(phi), z}));
+        }
+        EXPECT_LE(most, bound * (1 + 1e-12)) << brdf.index() << " alpha " << alpha << " nv " << nv;
+        EXPECT_GE(most, 0.5 * bound * (1 - 1e-12)) << brdf.index() << " alpha " << alpha << " nv " << nv;
+      }
+    }
+  }
+  EXPECT_EQ(highest_pdf(Lambert{}, {0, 0, -1}), 0);
+}
+
 // The density integrates to at most 1 (directions that end up below the horizon are lost): midpoint rule over the hemisphere.
 TEST(Brdf, PdfIntegratesToAtMostOne) {
   const Vec3d view = normalised(Vec3d{0.6, 0, 0.4});

@@ -400,6 +400,55 @@ TEST(Render, TexturesAreIntegratedOverThePixel) {
   EXPECT_GT(variance, 0);
 }
 
+// A glossy floor whose colour is a triangle wave of about three pixels, under a rectangle: the mean over the pixel of light times colour,
+// against 16 x 16 places evaluated one by one (whose own error, (1/16)^2 / 24 of the wave's slope per pixel, is below 2e-4).
+TEST(Render, ATexturesColoursAreMeanedWithTheExactLight) {
+  const auto file = std::filesystem::temp_directory_path() / "wave.ppm";
+  std::ofstream(file, std::ios::binary) << "P6\n2 1\n255\n" << std::string("\0\0\0\xff\xff\xff", 6);
+  Scene scene = floor_scene();
+  scene.images.push_back({file.string(), nullptr, "", "wave"});
+  scene.materials.push_back({});
+  scene.materials[0].model = Principled{{0.9, 0.6, 0.3}, 0.2, 0.6, 0.5};
+  Texture texture;
+  constexpr double periods = 60;  // of 20 m
+  texture.uv_transform[0][0] = periods;
+  scene.materials[0].base_colour_texture = texture;
+  scene.objects[0].material = 0;
+  scene.lights.push_back(with_luminance(RectShape{1, 0.5}, 1000, facing_down({0.2, 1.5, 0})));
+  scene.lights[0].visible = false;
+  RenderOptions options = small();
+  options.expected_noise = 0.05;
+  const Rendered out = rendered(scene, options);
+  const Result<eval::Emitter> emitter = eval::emitter_of(scene.lights[0]);
+  ASSERT_TRUE(emitter.ok());
+  double chi2 = 0;
+  int pixels = 0;
+  for (std::size_t i = 5; i < std::size_t{24} * 24; i += 23, ++pixels) {
+    constexpr int side = 16;
+    double expected = 0;
+    for (int k = 0; k < side * side; ++k) {
+      const double x = static_cast<double>(i % 24) + (k % side + 0.5) / side;
+      const std::size_t row = i / 24;
+      const int j = k / side;
+      const double y = static_cast<double>(row) + (j + 0.5) / side;
+      const Vec3d p = floor_point(scene.cameras[0], options, x, y);
+      const double phase = p.x / 20 * periods, t = phase - std::floor(phase);  // 0 in the middle of the floor, halfway between texels
+      const double wave = 1 - std::abs(2 * std::abs(t - 0.25) - 1);
+      Principled model = std::get<Principled>(scene.materials[0].model);
+      model.base_colour *= std::clamp(wave, 0.0, 1.0);
+      const eval::ShadingPoint point{p, {0, 1, 0}, {0, 1, 0}, normalised(scene.cameras[0].transform.translation - p), model};
+      expected += eval::reference(*emitter, point, {1e-5, 0}).value.y / (side * side);
+    }
+    const double error = green(out.picture, "", i) - expected, variance = static_cast<double>(green(out.picture, "variance", i));
+    // 288 places, the most, over a wave that deviates by .58 of its mean: independent ones would leave .034.
+    EXPECT_LT(std::sqrt(variance), 0.034 * expected) << i;
+    chi2 += error * error / variance;
+  }
+  // Each of the pairs' variances has 18 to 288 degrees of freedom: the mean of 1 deviates by about sqrt(2 / pixels) = .28.
+  EXPECT_LT(chi2 / pixels, 2);
+  EXPECT_GT(chi2 / pixels, 0.3);
+}
+
 // A quad facing +Z whose texture is black on the left and white on the right.
 TEST(Render, AMeshLightShowsItsTextureAtItsTextureCoordinates) {
   const std::filesystem::path file = std::filesystem::temp_directory_path() / "etendue_render_light.ppm";

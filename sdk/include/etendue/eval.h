@@ -51,6 +51,8 @@ struct DirectionSample {
   double pdf = 0;
 };
 DirectionSample sample_brdf(const Brdf& brdf, const Vec3d& view, const Vec2d& u);
+// What pdf_brdf exceeds nowhere. 0 below the horizon.
+double highest_pdf(const Brdf& brdf, const Vec3d& view);
 
 struct ShadingPoint {
   Vec3d position;

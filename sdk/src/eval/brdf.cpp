@@ -29,6 +29,14 @@ double pdf_brdf(const Brdf& brdf, const Vec3d& view, const Vec3d& light) {
   return both_above(view, light) ? mixed_pdf(facts_of(brdf, view), view, light) : 0;
 }
 
+double highest_pdf(const Brdf& brdf, const Vec3d& view) {
+  if (!(view.z > 0)) return 0;
+  const LobeFacts facts = facts_of(brdf, view);
+  double pdf = (1 - facts.specular_share) / pi;
+  if (facts.specular_share > 0) pdf += facts.specular_share * GgxView(facts.alpha, Masking::separable, view).highest_pdf();
+  return pdf;
+}
+
 DirectionSample sample_brdf(const Brdf& brdf, const Vec3d& view, const Vec2d& u) {
   if (!(view.z > 0)) return {};
   const LobeFacts facts = facts_of(brdf, view);

@@ -49,6 +49,7 @@ class GgxView {
   }
   // Density of the light directions that follow from visible normals: G1(v) D / (4 n.v).
   double pdf(const HalfAngle& h) const { return density(h) / (2 * (nv_ + sv_)); }
+  double highest_pdf() const { return pdf({1, 0, 1}); }
 
  private:
   double root(double x) const { return std::sqrt(x * x + alpha2_ * (1 - x * x)); }

@@ -2,7 +2,9 @@
 // where it bends so little that the interpolation's error is below the tolerance.
 #include "painter.h"
 
+#include <array>
 #include <cstdint>
+#include <utility>
 
 namespace etendue::rendering {
 namespace {
@@ -46,13 +48,14 @@ void LightPainter::centre_row(std::uint32_t row, int pass, RayCounts& counts) {
     if (place_of(x, row).pass() != pass || survey_.regions(pixel) != nullptr || !centre_is_needed(x, row)) continue;
     const Ray ray = camera_.through(x + 0.5, row + 0.5);
     const auto point = stage_.first(ray);
-    if (!is_plain(point)) continue;
+    if (!is_plain(point) && !is_coloured(point)) continue;
     // Lambert's closed forms cost no more than an interpolation.
-    const bool matt = std::holds_alternative<Lambert>(stage_.thing(point->thing).paint->material.model);
-    const std::optional<Reflected> between = matt ? std::nullopt : interpolated(x, row);
-    const Reflected value = between ? *between : lighting_.reflected(light_, *point, -ray.direction, tolerance_, counts);
-    centre_[pixel] = value.value;
-    centre_bound_[pixel] = static_cast<float>(value.bound);
+    const Rgb colour = base_colour_at(*stage_.thing(point->thing).paint, point->uv);
+    const std::optional<Response> between = is_matt(*point) ? std::nullopt : interpolated(x, row, colour);
+    const Response response = between ? *between : lighting_.response(light_, *point, -ray.direction, tolerance_, counts);
+    black_[pixel] = response.black;
+    slope_[pixel] = response.slope;
+    centre_bound_[pixel] = static_cast<float>(response.bound);
     known_[pixel] = 1;
   }
 }
@@ -60,54 +63,86 @@ void LightPainter::centre_row(std::uint32_t row, int pass, RayCounts& counts) {
 // The cubic through four places at -3, -1, 1, 3 steps has (9 (f(-1) + f(1)) - f(-3) - f(3)) / 16 in the middle and errs by .375 h^4 f4, h
 // the step, f4 the fourth derivative. Five places 2 h apart have the fourth difference 16 h^4 f4: those from -3 to 5 and from -5 to 3 say
 // what f4 is on both sides, and the larger stands for the error, doubled, as it is not constant in between.
-std::optional<Reflected> LightPainter::interpolated(std::uint32_t x, std::uint32_t y) const {
+std::optional<Response> LightPainter::interpolated(std::uint32_t x, std::uint32_t y, const Rgb& colour) const {
   const Place place = place_of(x, y);
   if (light_.delta || !(place.between_x || place.between_y)) return std::nullopt;
   const std::int64_t at = place.between_x ? x : y, end = place.between_x ? options_.width : options_.height;
   const std::int64_t pixel = index(x, y), reach = std::int64_t{place.step} * (place.between_x ? 1 : options_.width);
-  // Of the same surface, so many steps away; nothing where that is not known.
-  const auto known = [&](int steps) -> const Rgb* {
+  const auto pixel_at = [&](int steps) { return static_cast<std::size_t>(pixel + steps * reach); };
+  // Of the same surface, so many steps away.
+  const auto known = [&](int steps) {
     const std::int64_t there = at + std::int64_t{steps} * place.step;
-    if (there < 0 || there >= end) return nullptr;
-    const auto n = static_cast<std::size_t>(pixel + steps * reach);
-    return known_[n] != 0 && survey_.key(n) == survey_.key(static_cast<std::size_t>(pixel)) ? &centre_[n] : nullptr;
+    if (there < 0 || there >= end) return false;
+    return known_[pixel_at(steps)] != 0 && survey_.key(pixel_at(steps)) == survey_.key(static_cast<std::size_t>(pixel));
   };
-  const Rgb *a = known(-3), *b = known(-1), *c = known(1), *d = known(3), *before = known(-5), *after = known(5);
-  if (a == nullptr || b == nullptr || c == nullptr || d == nullptr || (before == nullptr && after == nullptr)) return std::nullopt;
-  const Rgb value = (*b + *c) * (9.0 / 16) - (*a + *d) / 16.0;
-  double fourth = 0;
-  if (before != nullptr) fourth = largest(*before - *a * 4.0 + *b * 6.0 - *c * 4.0 + *d);
-  if (after != nullptr) fourth = std::max(fourth, largest(*a - *b * 4.0 + *c * 6.0 - *d * 4.0 + *after));
-  const double error = 2 * 0.375 / 16 * fourth;
-  if (error > std::max(0.2 * tolerance_.relative * largest(value), tolerance_.absolute)) return std::nullopt;
-  const auto bound = [&](int steps) { return static_cast<double>(centre_bound_[static_cast<std::size_t>(pixel + steps * reach)]); };
-  return Reflected{value, std::max(bound(-1), bound(1)) + error};
+  const bool before = known(-5), after = known(5);
+  if (!known(-3) || !known(-1) || !known(1) || !known(3) || !(before || after)) return std::nullopt;
+  const auto cubic = [&](const std::vector<Rgb>& f) {
+    return (f[pixel_at(-1)] + f[pixel_at(1)]) * (9.0 / 16) - (f[pixel_at(-3)] + f[pixel_at(3)]) / 16.0;
+  };
+  const auto fourth = [&](int from) {
+    Rgb sum;
+    const std::array<double, 5> binomial{1, -4, 6, -4, 1};
+    for (int i = 0; i < 5; ++i) sum += centre(pixel_at(from + 2 * i), colour) * binomial[static_cast<std::size_t>(i)];
+    return largest(sum);
+  };
+  const double error = 2 * 0.375 / 16 * std::max(before ? fourth(-5) : 0, after ? fourth(-3) : 0);
+  const Rgb black = cubic(black_), slope = cubic(slope_);
+  if (error > std::max(0.2 * tolerance_.relative * largest(black + slope * colour), tolerance_.absolute)) return std::nullopt;
+  const auto bound = [&](int steps) { return static_cast<double>(centre_bound_[pixel_at(steps)]); };
+  return Response{black, slope, std::max(bound(-1), bound(1)) + error};
 }
 
 // The mean of f over a pixel of side 1 is f + (f_xx + f_yy) / 24 + O(4th derivatives); second differences of neighbours give f_xx, f_yy.
-std::optional<LightPainter::Curvature> LightPainter::curvature(std::uint32_t x, std::uint32_t y) const {
+std::optional<LightPainter::Curvature> LightPainter::curvature(std::uint32_t x, std::uint32_t y, const Rgb& colour) const {
   const std::size_t pixel = index(x, y);
   if (known_[pixel] == 0 || x == 0 || y == 0 || x + 1 >= options_.width || y + 1 >= options_.height) return std::nullopt;
   for (const std::size_t n : {pixel - 1, pixel + 1, pixel - options_.width, pixel + options_.width}) {
     if (known_[n] == 0 || survey_.key(n) != survey_.key(pixel)) return std::nullopt;
   }
-  const Rgb f_xx = centre_[pixel - 1] + centre_[pixel + 1] - centre_[pixel] * 2.0;
-  const Rgb f_yy = centre_[pixel - options_.width] + centre_[pixel + options_.width] - centre_[pixel] * 2.0;
+  const Rgb f = centre(pixel, colour);
+  const Rgb f_xx = centre(pixel - 1, colour) + centre(pixel + 1, colour) - f * 2.0;
+  const Rgb f_yy = centre(pixel - options_.width, colour) + centre(pixel + options_.width, colour) - f * 2.0;
   // Where the centre is dark and a neighbour is not, the light ends nearby: as bent as can be.
-  const double size = largest(centre_[pixel]), bend = largest(f_xx) + largest(f_yy);
+  const double size = largest(f), bend = largest(f_xx) + largest(f_yy);
   return Curvature{(f_xx + f_yy) / 24.0, size > 0 ? bend / size : bend > 0 ? 1.0 : 0.0};
 }
 
 // Against each neighbour that shows the same: of light that changes by a part s, in whatever power of the distance to where it ends, f_xx /
 // f is about s^2, and the centre errs by s^2 / 24.
-bool LightPainter::is_level(std::uint32_t x, std::uint32_t y) const {
+bool LightPainter::is_level(std::uint32_t x, std::uint32_t y, const Rgb& colour) const {
   constexpr double most = 0.15;
   const std::size_t pixel = index(x, y);
+  const Rgb f = centre(pixel, colour);
   const auto level = [&](std::size_t n) {
-    return known_[n] == 0 || survey_.key(n) != survey_.key(pixel) || largest(centre_[n] - centre_[pixel]) <= most * largest(centre_[pixel]);
+    return known_[n] == 0 || survey_.key(n) != survey_.key(pixel) || largest(centre(n, colour) - f) <= most * largest(f);
   };
   return (x == 0 || level(pixel - 1)) && (x + 1 >= options_.width || level(pixel + 1)) && (y == 0 || level(pixel - options_.width)) &&
          (y + 1 >= options_.height || level(pixel + options_.width));
+}
+
+// Whether second differences are enough for the pixel's mean, or none is needed.
+bool LightPainter::is_gentle(std::uint32_t x, std::uint32_t y, const SurfacePoint& centre) const {
+  if (known_[index(x, y)] == 0) return false;
+  const Rgb colour = base_colour_at(*stage_.thing(centre.thing).paint, centre.uv);
+  const std::optional<Curvature> bend = curvature(x, y, colour);
+  return bend ? bend->relative < gentle_bend : is_level(x, y, colour);
+}
+
+// Differences to neighbours that show the same; what lies beside an edge has them on one side only, and then no second ones.
+LightPainter::Local LightPainter::local(const std::vector<Rgb>& values, std::uint32_t x, std::uint32_t y) const {
+  const std::size_t pixel = index(x, y);
+  const Rgb f = values[pixel];
+  const auto along = [&](std::uint32_t at, std::uint32_t end, std::size_t step) {
+    const auto shows_the_same = [&](std::size_t n) { return known_[n] != 0 && survey_.key(n) == survey_.key(pixel); };
+    const bool before = at > 0 && shows_the_same(pixel - step), after = at + 1 < end && shows_the_same(pixel + step);
+    const Rgb back = before ? f - values[pixel - step] : Rgb{}, ahead = after ? values[pixel + step] - f : Rgb{};
+    if (before && after) return std::pair((back + ahead) * 0.5, ahead - back);
+    return std::pair(back + ahead, Rgb{});
+  };
+  const auto [f_x, f_xx] = along(x, options_.width, 1);
+  const auto [f_y, f_yy] = along(y, options_.height, options_.width);
+  return {f, f_x, f_y, f_xx, f_yy};
 }
 
 }  // namespace etendue::rendering

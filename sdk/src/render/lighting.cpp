@@ -53,6 +53,7 @@ class Reflector {
     return eval::brdf_cos(point_.brdf, view_, local(direction));
   }
   double pdf(const Vec3d& direction) const { return eval::pdf_brdf(point_.brdf, view_, local(direction)); }
+  double highest_pdf() const { return eval::highest_pdf(point_.brdf, view_); }
   // pdf 0: none
   eval::DirectionSample choose(const Vec2d& u) const {
     eval::DirectionSample s = eval::sample_brdf(point_.brdf, view_, u);
@@ -68,6 +69,24 @@ class Reflector {
   Vec3d view_;
 };
 
+// Solid angle of the ball, as seen from outside it.
+std::optional<double> solid_angle(const Ball& ball, const Vec3d& from) {
+  const double sine = ball.radius / length(ball.centre - from);
+  if (!(sine < 1)) return std::nullopt;
+  return 2 * pi * sine * sine / (1 + std::sqrt(1 - sine * sine));
+}
+
+// Whether the BRDF is to be sampled beside the light. Where the light is small and far, directions chosen by the BRDF hardly meet it: no
+// more than highest_pdf times its solid angle do, and beside a density of about 1 / solid angle the balance heuristic leaves them no more
+// than that share of the light.
+bool samples_brdf(const StageLight& light, const eval::ShadingPoint& point, const Reflector& reflector) {
+  constexpr double least_share = 0.25;
+  if (std::holds_alternative<eval::EnvironmentEmitter>(light.emitter.shape)) return true;
+  if (std::holds_alternative<Lambert>(point.brdf)) return false;
+  const auto angle = light.extent ? solid_angle(*light.extent, point.position) : std::nullopt;
+  return !angle || reflector.highest_pdf() * *angle > least_share;
+}
+
 // Sums over one replicate.
 struct Sums {
   Rgb visible, all;
@@ -81,8 +100,8 @@ Rgb Lighting::emitted(const StageLight& light, const std::optional<SurfacePoint>
 }
 
 Reflected Lighting::reflected(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
-                              RayCounts& counts) const {
-  const auto shading = shading_point(stage_.thing(point.thing).paint, point, view);
+                              RayCounts& counts, const std::optional<Rgb>& base_colour) const {
+  const auto shading = shading_point(stage_.thing(point.thing).paint, point, view, base_colour);
   if (!shading) return {};
   if (!light.delta) {
     const eval::Estimate estimate = eval::reference(light.emitter, *shading, tolerance);
@@ -97,6 +116,18 @@ Reflected Lighting::reflected(const StageLight& light, const SurfacePoint& point
   ++counts.shadow;
   if (stage_.blocked(point, sample.direction, sample.distance, light.thing)) return {};
   return {value, 0};
+}
+
+Response Lighting::response(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
+                            RayCounts& counts) const {
+  const Paint* const paint = stage_.thing(point.thing).paint;
+  if (paint == nullptr || !paint->coloured()) {
+    const Reflected all = reflected(light, point, view, tolerance, counts);
+    return {all.value, {}, all.bound};
+  }
+  const Reflected black = reflected(light, point, view, tolerance, counts, Rgb{0, 0, 0});
+  const Reflected white = reflected(light, point, view, tolerance, counts, Rgb{1, 1, 1});
+  return {black.value, white.value - black.value, std::max(black.bound, white.bound)};
 }
 
 std::optional<SurfacePoint> Lighting::target_point(const PixelTarget& target, const Ray& ray, RayCounts& counts) const {
@@ -133,8 +164,7 @@ Sampled Lighting::sample(const StageLight& light, const PixelTarget& target, dou
         if (!stage_.blocked(*point, direction, distance, own)) sums.visible += value;
       };
       // Both strategies, one sample each; the balance heuristic (Veach 1997, section 9.2.2) divides by the sum of their densities.
-      const bool environment = std::holds_alternative<eval::EnvironmentEmitter>(light.emitter.shape);
-      const bool both = environment || !std::holds_alternative<Lambert>(shading->brdf);
+      const bool both = samples_brdf(light, *shading, reflector);
       const eval::LightSample towards = eval::sample_light(light.emitter, point->position, {u[2], u[3]});
       ++counts.evaluations;
       if (towards.pdf > 0) {

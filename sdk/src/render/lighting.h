@@ -29,6 +29,12 @@ struct Reflected {
   double bound = 0;
 };
 
+// Reflected light as a function of the surface's base colour, which it is affine in: all of it in `black` where no texture changes that.
+struct Response {
+  Rgb black, slope;
+  double bound = 0;
+};
+
 // Where the samples of a pixel lie: over its area, or on one plane that fills it.
 struct PixelTarget {
   std::uint32_t x = 0, y = 0;
@@ -43,7 +49,9 @@ class Lighting {
   Rgb emitted(const StageLight& light, const std::optional<SurfacePoint>& point, const Ray& ray) const;
   // Of a punctual light, with its shadow. Only for analytic and delta lights.
   Reflected reflected(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
-                      RayCounts& counts) const;
+                      RayCounts& counts, const std::optional<Rgb>& base_colour = std::nullopt) const;
+  Response response(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
+                    RayCounts& counts) const;
   // The mean of (V - beta) times reflected light over pixel and light; V is 1 where the light is seen and else 0.
   Sampled sample(const StageLight& light, const PixelTarget& target, double beta, const Effort& effort, std::uint64_t seed,
                  RayCounts& counts) const;

@@ -7,20 +7,25 @@
 namespace etendue::rendering {
 namespace {
 
-constexpr Effort pilot{8, 2};
-constexpr int fewest_points = 4, most_points = 128;  // of each eighth, where shadows are mixed
+constexpr Effort pilot{8, 1};
+constexpr int fewest_points = 2, most_points = 128;  // of each eighth, where shadows are mixed
 constexpr double shadow_share = 0.2;                 // of the expected noise
 constexpr double shading_share = 0.02;               // of the expected noise: errors of shading are alike in neighbours
 constexpr double dark_share = 0.05;                  // of the typical luminance: what is darker is not judged
 
 constexpr std::uint64_t pilot_purpose = 0, shadow_purpose = 1, typical_purpose = 3;  // 2: places.cpp
 
-// Effort so that a half-shadowed pixel, standard deviation .5, comes to `goal` of its light. A sequence of n points in the dimensions of a
-// shadow converges about as n^-3/4; a light that is only sampled has a standard deviation near 1. What its samples leave may be most of the
-// variance that differences are divided by, and 1 / variance has the mean nu / (nu - 2) of what it should be if nu + 1 replicates measured
-// it: 7 / 5 for 8 of them, 31 / 29 for 32.
-Effort effort_for(double goal, bool only_sampled) {
-  const double n = std::pow((only_sampled ? 1.0 : 0.5) / std::max(goal, 1e-6), 4.0 / 3) / pilot.replicates;
+// Effort so that a half-shadowed pixel, standard deviation .5, comes to `goal` of its light, and others to the same part of what the
+// reference's noise is there. Of a share beta that is visible, our samples have the variance beta (1 - beta), a path tracer's, whose
+// samples deviate by s = 1.4 where all is visible, beta (1 + s^2 - beta). A sequence of n points in the dimensions of a shadow converges
+// about as n^-3/4. A light that is only sampled has a standard deviation near 1. What its samples leave may be most of the variance that
+// differences are divided by, and 1 / variance has the mean nu / (nu - 2) of what it should be if nu + 1 replicates measured it: 7 / 5 for
+// 8 of them, 31 / 29 for 32.
+Effort effort_for(double goal, double beta) {
+  const bool only_sampled = !(beta > 0);
+  const auto harder = [](double share) { return (1 - share) / (1 + 1.4 * 1.4 - share); };
+  const double deviation = only_sampled ? 1 : 0.5 * std::sqrt(harder(beta) / harder(0.5));
+  const double n = std::pow(deviation / std::max(goal, 1e-6), 4.0 / 3) / pilot.replicates;
   const auto points = static_cast<int>(std::clamp(n, static_cast<double>(fewest_points), static_cast<double>(most_points)));
   if (!only_sampled) return {pilot.replicates, points};
   constexpr int parts = 4;
@@ -66,7 +71,7 @@ double LightPainter::typical_luminance() const {
 bool LightPainter::run(RowRunner& rows) {
   const std::size_t pixels = value_.size();
   if (shadows_) visible_.assign(pixels, 0), all_.assign(pixels, 0);
-  if (light_.analytic) centre_.assign(pixels, {}), centre_bound_.assign(pixels, 0), known_.assign(pixels, 0);
+  if (light_.analytic) black_.assign(pixels, {}), slope_.assign(pixels, {}), centre_bound_.assign(pixels, 0), known_.assign(pixels, 0);
   const bool done = rows.run([this](std::uint32_t row, RayCounts& counts) {
     if (shadows_) pilot_row(row, counts);
   }) && find_centres(rows) &&
@@ -82,6 +87,16 @@ bool LightPainter::is_uneven(std::size_t pixel) const {
 bool LightPainter::is_plain(const std::optional<SurfacePoint>& point) const {
   const Paint* paint = point ? stage_.thing(point->thing).paint : nullptr;
   return paint != nullptr && !paint->textured();
+}
+
+// Light of extended lights on it is smooth but for a texture's colour.
+bool LightPainter::is_coloured(const std::optional<SurfacePoint>& point) const {
+  const Paint* paint = point && !light_.delta ? stage_.thing(point->thing).paint : nullptr;
+  return paint != nullptr && paint->coloured();
+}
+
+bool LightPainter::is_matt(const SurfacePoint& point) const {
+  return std::holds_alternative<Lambert>(stage_.thing(point.thing).paint->material.model);
 }
 
 PixelTarget LightPainter::target(std::uint32_t x, std::uint32_t y, const SurfacePoint* centre) const {
@@ -125,7 +140,7 @@ LightPainter::Measured LightPainter::sampled(std::uint32_t x, std::uint32_t y, c
   Effort effort = pilot;
   std::uint64_t purpose = pilot_purpose;
   if (around.mixed) {
-    effort = effort_for(shadow_share * options_.expected_noise, !(around.beta > 0));
+    effort = effort_for(shadow_share * options_.expected_noise, around.beta);
     purpose = shadow_purpose;
   } else {
     // The pilot's own samples are repeated, unless they are known to add nothing.
@@ -142,7 +157,9 @@ void LightPainter::paint_row(std::uint32_t row, RayCounts& counts) {
     const std::size_t pixel = index(x, row);
     const auto centre = stage_.first(camera_.through(x + 0.5, row + 0.5));
     const Regions* regions = survey_.regions(pixel);
-    const Surroundings around = surroundings(x, row);
+    Surroundings around = surroundings(x, row);
+    if (around.beta > 0 && regions == nullptr && is_coloured(centre) && !is_matt(*centre) && !is_gentle(x, row, *centre))
+      around = {0, true};
     const Measured direct = regions != nullptr ? split(x, row, *regions, around.beta, counts) : smooth(x, row, around.beta, centre, counts);
     value_[pixel] = direct.value;
     variance_[pixel] = direct.variance;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace etendue::rendering {
@@ -24,6 +25,7 @@ class LightPainter {
                const PainterOptions& options);
 
   static constexpr int centre_passes = 5;
+  static constexpr double gentle_bend = 0.01;  // Curvature::relative up to which second differences give a pixel's mean
   static constexpr std::size_t passes = 2 + centre_passes;
   // Fills width x height values and variances. False: cancelled.
   bool run(RowRunner& rows);
@@ -43,6 +45,11 @@ class LightPainter {
     Rgb correction;   // from the centre's value to the pixel's mean
     double relative;  // |f_xx / f| + |f_yy / f|
   };
+  // Light around a pixel's centre, as a quadratic function of the place.
+  struct Local {
+    Rgb f, f_x, f_y, f_xx, f_yy;
+    Rgb at(double dx, double dy) const { return f + f_x * dx + f_y * dy + f_xx * (0.5 * dx * dx) + f_yy * (0.5 * dy * dy); }
+  };
   // What the pilot samples around a pixel, its own left out, say about shadows there.
   struct Surroundings {
     double beta = 1;
@@ -53,23 +60,31 @@ class LightPainter {
   void pilot_row(std::uint32_t row, RayCounts& counts);
   bool find_centres(RowRunner& rows);
   void centre_row(std::uint32_t row, int pass, RayCounts& counts);
-  std::optional<Reflected> interpolated(std::uint32_t x, std::uint32_t y) const;
+  std::optional<Response> interpolated(std::uint32_t x, std::uint32_t y, const Rgb& colour) const;
   void paint_row(std::uint32_t row, RayCounts& counts);
   Surroundings surroundings(std::uint32_t x, std::uint32_t y) const;
   bool centre_is_needed(std::uint32_t x, std::uint32_t y) const;
   bool is_uneven(std::size_t pixel) const;
   bool is_plain(const std::optional<SurfacePoint>& point) const;
+  bool is_coloured(const std::optional<SurfacePoint>& point) const;
+  bool is_matt(const SurfacePoint& point) const;
   PixelTarget target(std::uint32_t x, std::uint32_t y, const SurfacePoint* plane) const;
   Reflected at(double x, double y, double beta, RayCounts& counts) const;
-  Measured over_places(std::uint32_t x, std::uint32_t y, double beta, RayCounts& counts) const;
+  using Integrand = std::function<Reflected(double x, double y)>;
+  Measured over_places(std::uint32_t x, std::uint32_t y, const Integrand& light) const;
+  Measured over_colours(std::uint32_t x, std::uint32_t y, double beta, const SurfacePoint& centre, RayCounts& counts) const;
   Reflected gauss_legendre(const Cell& cell, double beta, int side, RayCounts& counts) const;
   Measured cubature(const Cell& cell, double beta, int halvings, RayCounts& counts) const;
   Measured smooth(std::uint32_t x, std::uint32_t y, double beta, const std::optional<SurfacePoint>& centre, RayCounts& counts) const;
   Measured split(std::uint32_t x, std::uint32_t y, const Regions& regions, double beta, RayCounts& counts) const;
   Measured sampled(std::uint32_t x, std::uint32_t y, const Surroundings& around, const std::optional<SurfacePoint>& centre,
                    RayCounts& counts) const;
-  std::optional<Curvature> curvature(std::uint32_t x, std::uint32_t y) const;
-  bool is_level(std::uint32_t x, std::uint32_t y) const;
+  // `colour`: the base colour that all places are taken to have, where a texture changes it.
+  Rgb centre(std::size_t pixel, const Rgb& colour) const { return black_[pixel] + slope_[pixel] * colour; }
+  std::optional<Curvature> curvature(std::uint32_t x, std::uint32_t y, const Rgb& colour) const;
+  bool is_level(std::uint32_t x, std::uint32_t y, const Rgb& colour) const;
+  bool is_gentle(std::uint32_t x, std::uint32_t y, const SurfacePoint& centre) const;
+  Local local(const std::vector<Rgb>& values, std::uint32_t x, std::uint32_t y) const;
   std::size_t index(std::uint32_t x, std::uint32_t y) const { return std::size_t{y} * options_.width + x; }
   std::uint64_t seed(std::size_t pixel, std::uint64_t purpose) const;
 
@@ -82,9 +97,9 @@ class LightPainter {
   eval::Tolerance tolerance_;
   bool shadows_;                      // something may stand in the light's way
   std::vector<float> visible_, all_;  // pilot: light with and without shadows
-  std::vector<Rgb> centre_;           // unblocked light at the centres of smooth pixels
+  std::vector<Rgb> black_, slope_;    // unblocked light at the centres of smooth pixels, as Response
   std::vector<float> centre_bound_;   // what its error may be
-  std::vector<std::uint8_t> known_;   // where centre_ holds something
+  std::vector<std::uint8_t> known_;   // where they hold something
   std::vector<Rgb> value_, variance_;
 };
 

@@ -37,7 +37,7 @@ Reflected LightPainter::at(double x, double y, double beta, RayCounts& counts) c
 
 // Two places in each of side x side cells: half their squared difference has the mean of the variance inside the cell, so that the pixel's
 // variance is known without bias. How many cells is asked of a pilot whose own places are not used.
-LightPainter::Measured LightPainter::over_places(std::uint32_t x, std::uint32_t y, double beta, RayCounts& counts) const {
+LightPainter::Measured LightPainter::over_places(std::uint32_t x, std::uint32_t y, const Integrand& light) const {
   constexpr int pilot_places = 8;
   const std::size_t pixel = index(x, y);
   Random pilot(seed(pixel, spread_purpose)), random(seed(pixel, place_purpose));
@@ -45,7 +45,7 @@ LightPainter::Measured LightPainter::over_places(std::uint32_t x, std::uint32_t 
   for (int i = 0; i < pilot_places; ++i) {
     const int column = i % 4, row = i / 4;
     const double u = (column + pilot.next()) / 4, v = (row + pilot.next()) / 2;
-    const Rgb value = at(x + u, y + v, beta, counts).value;
+    const Rgb value = light(x + u, y + v).value;
     sum += value;
     squares += squared(value);
   }
@@ -59,7 +59,7 @@ LightPainter::Measured LightPainter::over_places(std::uint32_t x, std::uint32_t 
     std::array<Rgb, 2> pair;
     for (Rgb& value : pair) {
       const double u = (column + random.next()) / side, v = (row + random.next()) / side;
-      const Reflected here = at(x + u, y + v, beta, counts);
+      const Reflected here = light(x + u, y + v);
       value = here.value;
       out.bound += here.bound / (2 * cells);
     }
@@ -67,6 +67,21 @@ LightPainter::Measured LightPainter::over_places(std::uint32_t x, std::uint32_t 
     out.variance += squared((pair[0] - pair[1]) / (2 * cells));
   }
   return out;
+}
+
+// Over a textured surface the light for each colour is smooth: the texture is looked up at random places, the light comes from the centres.
+LightPainter::Measured LightPainter::over_colours(std::uint32_t x, std::uint32_t y, double beta, const SurfacePoint& centre,
+                                                  RayCounts& counts) const {
+  const Local black = local(black_, x, y), slope = local(slope_, x, y);
+  const Paint& paint = *stage_.thing(centre.thing).paint;
+  const double bound = static_cast<double>(centre_bound_[index(x, y)]);
+  return over_places(x, y, [&](double at_x, double at_y) {
+    ++counts.primary;
+    const auto point = stage_.first(camera_.through(at_x, at_y));
+    const Rgb colour = base_colour_at(paint, point && point->thing == centre.thing ? point->uv : centre.uv);
+    const double dx = at_x - (x + 0.5), dy = at_y - (y + 0.5);
+    return Reflected{(black.at(dx, dy) + slope.at(dx, dy) * colour) * beta, bound * beta};
+  });
 }
 
 // `side` is 2 or 3 places along each side: exact up to third or fifth degree.
@@ -111,19 +126,23 @@ LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, do
   const bool own_light = thing != nullptr && centre->thing == light_.thing;
   const bool patterned = own_light && static_cast<bool>(light_.emitter.pattern);
   const bool textured = thing != nullptr && thing->paint != nullptr && thing->paint->textured();
+  if (beta > 0 && light_.analytic && !own_light && is_coloured(centre) && is_gentle(x, y, *centre)) {
+    return over_colours(x, y, beta, *centre, counts);
+  }
   if ((!centre && light_.background) || patterned || (textured && (beta > 0 || own_light)) || (light_.delta && is_uneven(pixel))) {
-    return over_places(x, y, beta, counts);
+    return over_places(x, y, [&](double at_x, double at_y) { return at(at_x, at_y, beta, counts); });
   }
   const Ray ray = camera_.through(x + 0.5, y + 0.5);
   Measured out{lighting_.emitted(light_, centre, ray), {}, 0};
   if (beta <= 0 || thing == nullptr || thing->paint == nullptr || !light_.analytic) return out;
   const bool cheap = light_.delta || std::holds_alternative<Lambert>(thing->paint->material.model);
   // With g = |f_xx / f| the next terms are of the order g^2: g^2 / 340 here, g^2 / 4320 for the rule of 2 x 2.
-  constexpr double gentle = 0.01, steep = 0.1;
-  const std::optional<Curvature> bend = curvature(x, y);
+  constexpr double steep = 0.1;
+  const Rgb any_colour;
+  const std::optional<Curvature> bend = curvature(x, y, any_colour);
   // Beside an edge the second differences are missing. A costly light that hardly changes from pixel to pixel needs none.
-  if ((bend && bend->relative < gentle) || (!bend && known_[pixel] != 0 && !cheap && is_level(x, y))) {
-    out.value += (centre_[pixel] + (bend ? bend->correction : Rgb{})) * beta;
+  if ((bend && bend->relative < gentle_bend) || (!bend && known_[pixel] != 0 && !cheap && is_level(x, y, any_colour))) {
+    out.value += (black_[pixel] + (bend ? bend->correction : Rgb{})) * beta;
     out.bound = static_cast<double>(centre_bound_[pixel]) * beta;
     return out;
   }

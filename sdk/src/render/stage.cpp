@@ -198,6 +198,10 @@ Status Stage::add_light(const Scene& scene, std::uint32_t index, bool lit, bool 
   const auto* mesh = std::get_if<MeshShape>(&light.shape);
   staged.convex = mesh == nullptr;
   const std::optional<Shape> shape = visible_shape(staged.emitter.shape);
+  if (shape) {
+    const Box box = box_of(*shape);
+    staged.extent = Ball{(box.min + box.max) * 0.5, 0.5 * length(box.max - box.min)};
+  }
   // Mitsuba has no invisible area lights.
   if ((light.visible || mitsuba_model) && (shape || mesh != nullptr)) {
     staged.thing = static_cast<std::uint32_t>(things_.size());

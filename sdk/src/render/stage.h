@@ -10,12 +10,19 @@
 
 namespace etendue::rendering {
 
+// The ball around a light's shape.
+struct Ball {
+  Vec3d centre;
+  double radius;
+};
+
 struct StageLight {
   std::uint32_t index = 0;  // into Scene::lights
   std::string layer;        // "light.NAME"
   eval::Emitter emitter;
   eval::Emitter as_seen;           // without window: what the camera meets
   std::uint32_t thing = no_index;  // its visible shape
+  std::optional<Ball> extent;      // of a sphere, disk, polygon or tube
   bool delta = false;              // one direction a point: punctual and true directions
   bool analytic = true;            // eval::reference is exact and cheap enough; else sampled alone
   bool convex = true;              // cannot hide a part of its own front from anybody

@@ -78,12 +78,13 @@ struct Resolve {
   }
 };
 
-eval::Brdf brdf_at(const Paint& paint, Vec2d uv) {
+eval::Brdf brdf_at(const Paint& paint, Vec2d uv, const std::optional<Rgb>& base_colour) {
   const double metallic = channel(paint.metal_rough, paint.material.metal_rough_texture, uv, &Rgba::b);
   const double roughness = channel(paint.metal_rough, paint.material.metal_rough_texture, uv, &Rgba::g);
   const Rgba specular_gloss =
       paint.specular_gloss == nullptr ? Rgba{1, 1, 1, 1} : sample(*paint.specular_gloss, *paint.material.specular_gloss_texture, uv);
-  return std::visit(Resolve{base_colour_at(paint, uv), metallic, roughness, specular_gloss}, paint.material.model);
+  return std::visit(Resolve{base_colour ? *base_colour : base_colour_at(paint, uv), metallic, roughness, specular_gloss},
+                    paint.material.model);
 }
 
 // The normal map's vector in the frame (s, t, n): s is the tangent made perpendicular to the interpolated normal, t = n x s. On the back of
@@ -98,6 +99,14 @@ Vec3d perturbed(const Paint& paint, const SurfacePoint& point, double side) {
 }
 
 }  // namespace
+
+bool Paint::coloured() const {
+  if (base_colour == nullptr || metal_rough != nullptr || specular_gloss != nullptr || normal != nullptr || has_holes()) return false;
+  // Frostbite's f90 = min(1, 49.5 mean f0) bends where a metal's colour is nearly black.
+  const auto* standard = std::get_if<Standard>(&material.model);
+  return standard == nullptr || standard->metal == 0 ||
+         49.5 * 0.16 * standard->reflectance * standard->reflectance * (1 - standard->metal) >= 1;
+}
 
 SurfacePoint surface_point(const Thing& thing, const Ray& ray, const Hit& hit) {
   SurfacePoint out;
@@ -138,14 +147,15 @@ Rgb base_colour_at(const Paint& paint, Vec2d uv) {
   return factor * Rgb{texel.r, texel.g, texel.b};
 }
 
-std::optional<eval::ShadingPoint> shading_point(const Paint* paint, const SurfacePoint& point, const Vec3d& view) {
+std::optional<eval::ShadingPoint> shading_point(const Paint* paint, const SurfacePoint& point, const Vec3d& view,
+                                                const std::optional<Rgb>& base_colour) {
   if (paint == nullptr) return std::nullopt;
   const double cosine = dot(view, point.normal);
   if (cosine == 0 || (cosine < 0 && !paint->material.double_sided)) return std::nullopt;
   const double side = cosine > 0 ? 1 : -1;
   const Vec3d surface_normal = point.normal * side;
   const Vec3d normal = paint->normal != nullptr ? perturbed(*paint, point, side) : surface_normal;
-  return eval::ShadingPoint{point.position, normal, surface_normal, view, brdf_at(*paint, point.uv)};
+  return eval::ShadingPoint{point.position, normal, surface_normal, view, brdf_at(*paint, point.uv, base_colour)};
 }
 
 double lobe_width(const SurfaceModel& model) {

@@ -24,6 +24,8 @@ struct Paint {
   const DecodedImage* normal = nullptr;
   bool coarse_holes = false;  // cut on the exporter's grid
   bool textured() const { return base_colour != nullptr || metal_rough != nullptr || specular_gloss != nullptr || normal != nullptr; }
+  // Textures change the base colour alone, and reflected light is an affine function of that.
+  bool coloured() const;
   bool has_holes() const { return material.alpha_cutoff.has_value(); }
 };
 
@@ -68,7 +70,8 @@ Rgb base_colour_at(const Paint& paint, Vec2d uv);
 // vectors, or 1 for matt surfaces.
 double lobe_width(const SurfaceModel& model);
 
-// What light falls on, or nothing: the back of a one-sided surface, or a black one.
-std::optional<eval::ShadingPoint> shading_point(const Paint* paint, const SurfacePoint& point, const Vec3d& view);
+// What light falls on, or nothing: the back of a one-sided surface, or a black one. `base_colour` replaces the paint's own.
+std::optional<eval::ShadingPoint> shading_point(const Paint* paint, const SurfacePoint& point, const Vec3d& view,
+                                                const std::optional<Rgb>& base_colour = std::nullopt);
 
 }  // namespace etendue::rendering

@@ -2,6 +2,7 @@
 #include "hashing.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace etendue::rendering {
 namespace {
@@ -18,6 +19,7 @@ Survey::Survey(const Stage& stage, const PinholeCamera& camera, const SurveyOpti
       suspected_(keys_.size()),
       split_(keys_.size()),
       emitter_(keys_.size()),
+      coloured_(keys_.size()),
       unevenness_(keys_.size()),
       regions_(keys_.size()),
       environment_(std::any_of(stage.lights().begin(), stage.lights().end(),
@@ -33,11 +35,16 @@ bool Survey::is_emitter(const Probe& probe) const {
   return environment_ || probe.key != nothing_key;
 }
 
+bool Survey::is_coloured(const Probe& probe) const {
+  const Paint* paint = probe.point ? stage_.thing(probe.point->thing).paint : nullptr;
+  return paint != nullptr && paint->coloured() && !std::holds_alternative<Lambert>(paint->material.model);
+}
+
 double Survey::uneven_between(const Probe& a, const Probe& b) const {
   if (a.key != b.key || !a.point || !b.point) return 0;
   const Paint* paint = stage_.thing(a.point->thing).paint;
   if (paint == nullptr) return 0;
-  if (paint->textured() && !std::holds_alternative<Lambert>(paint->material.model)) return infinite;
+  if (paint->textured() && !paint->coloured() && !std::holds_alternative<Lambert>(paint->material.model)) return infinite;
   if (a.point->flat && b.point->flat) return 0;
   return length(cross(a.point->normal, b.point->normal)) / lobe_width(paint->material.model);
 }
@@ -64,6 +71,7 @@ void Survey::look_first(std::uint32_t row, RayCounts& counts) {
     for (std::size_t i = 0; i < probes.size(); ++i) {
       if (!same(centre, probes[i])) suspected_[pixel] = 1;
       if (is_emitter(probes[i])) emitter_[pixel] = 1;
+      if (is_coloured(probes[i])) coloured_[pixel] = 1;
       for (std::size_t j = 0; j <= i; ++j) uneven = std::max(uneven, uneven_between(probes[i], probes[j]));
     }
     unevenness_[pixel] = static_cast<float>(uneven);
@@ -100,6 +108,7 @@ void Survey::look_again(std::uint32_t row, RayCounts& counts) {
     }
     if (!split) continue;
     split_[pixel] = 1;
+    if (coloured_[pixel] != 0) unevenness_[pixel] = std::numeric_limits<float>::infinity();
     const std::uint64_t seed = mixed(options_.seed + 2) ^ pixel;
     regions_[pixel] = std::make_unique<Regions>(regions_of(prober_, stage_, x, row, options_.area_tolerance, seed, counts));
   }
