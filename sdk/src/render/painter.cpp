@@ -8,24 +8,20 @@ namespace etendue::rendering {
 namespace {
 
 constexpr Effort pilot{8, 1};
-constexpr int fewest_points = 2, most_points = 128;  // of each eighth, where shadows are mixed
+constexpr std::uint32_t reach = 2;                   // pixels to each side whose pilots say what is shadowed: 192 samples
+constexpr int fewest_points = 4, most_points = 128;  // of each eighth, where shadows are mixed
 constexpr double shadow_share = 0.2;                 // of the expected noise
 constexpr double shading_share = 0.02;               // of the expected noise: errors of shading are alike in neighbours
 constexpr double dark_share = 0.05;                  // of the typical luminance: what is darker is not judged
 
 constexpr std::uint64_t pilot_purpose = 0, shadow_purpose = 1, typical_purpose = 3;  // 2: places.cpp
 
-// Effort so that a half-shadowed pixel, standard deviation .5, comes to `goal` of its light, and others to the same part of what the
-// reference's noise is there. Of a share beta that is visible, our samples have the variance beta (1 - beta), a path tracer's, whose
-// samples deviate by s = 1.4 where all is visible, beta (1 + s^2 - beta). A sequence of n points in the dimensions of a shadow converges
-// about as n^-3/4. A light that is only sampled has a standard deviation near 1. What its samples leave may be most of the variance that
-// differences are divided by, and 1 / variance has the mean nu / (nu - 2) of what it should be if nu + 1 replicates measured it: 7 / 5 for
-// 8 of them, 31 / 29 for 32.
-Effort effort_for(double goal, double beta) {
-  const bool only_sampled = !(beta > 0);
-  const auto harder = [](double share) { return (1 - share) / (1 + 1.4 * 1.4 - share); };
-  const double deviation = only_sampled ? 1 : 0.5 * std::sqrt(harder(beta) / harder(0.5));
-  const double n = std::pow(deviation / std::max(goal, 1e-6), 4.0 / 3) / pilot.replicates;
+// Effort so that a half-shadowed pixel, standard deviation .5, comes to `goal` of its light. A sequence of n points in the dimensions of a
+// shadow converges about as n^-3/4; a light that is only sampled has a standard deviation near 1. What its samples leave may be most of the
+// variance that differences are divided by, and 1 / variance has the mean nu / (nu - 2) of what it should be if nu + 1 replicates measured
+// it: 7 / 5 for 8 of them, 31 / 29 for 32.
+Effort effort_for(double goal, bool only_sampled) {
+  const double n = std::pow((only_sampled ? 1.0 : 0.5) / std::max(goal, 1e-6), 4.0 / 3) / pilot.replicates;
   const auto points = static_cast<int>(std::clamp(n, static_cast<double>(fewest_points), static_cast<double>(most_points)));
   if (!only_sampled) return {pilot.replicates, points};
   constexpr int parts = 4;
@@ -72,11 +68,14 @@ bool LightPainter::run(RowRunner& rows) {
   const std::size_t pixels = value_.size();
   if (shadows_) visible_.assign(pixels, 0), all_.assign(pixels, 0);
   if (light_.analytic) black_.assign(pixels, {}), slope_.assign(pixels, {}), centre_bound_.assign(pixels, 0), known_.assign(pixels, 0);
-  const bool done = rows.run([this](std::uint32_t row, RayCounts& counts) {
+  if (shadows_) mixed_variance_.assign(pixels, {}), is_mixed_.assign(pixels, 0);
+  return rows.run([this](std::uint32_t row, RayCounts& counts) {
     if (shadows_) pilot_row(row, counts);
   }) && find_centres(rows) &&
-                    rows.run([this](std::uint32_t row, RayCounts& counts) { paint_row(row, counts); });
-  return done;
+         rows.run([this](std::uint32_t row, RayCounts& counts) { paint_row(row, counts); }) &&
+         rows.run([this](std::uint32_t row, RayCounts&) {
+           if (shadows_) pool_row(row);
+         });
 }
 
 bool LightPainter::is_uneven(std::size_t pixel) const {
@@ -121,8 +120,8 @@ LightPainter::Surroundings LightPainter::surroundings(std::uint32_t x, std::uint
   if (!light_.analytic || is_uneven(index(x, y))) return {0, true};
   if (!shadows_) return {1, false};
   double visible = 0, all = 0;
-  for (std::uint32_t j = y > 0 ? y - 1 : 0; j <= std::min(y + 1, options_.height - 1); ++j) {
-    for (std::uint32_t i = x > 0 ? x - 1 : 0; i <= std::min(x + 1, options_.width - 1); ++i) {
+  for (std::uint32_t j = y > reach ? y - reach : 0; j <= std::min(y + reach, options_.height - 1); ++j) {
+    for (std::uint32_t i = x > reach ? x - reach : 0; i <= std::min(x + reach, options_.width - 1); ++i) {
       if (i == x && j == y) continue;
       visible += static_cast<double>(visible_[index(i, j)]);
       all += static_cast<double>(all_[index(i, j)]);
@@ -140,7 +139,7 @@ LightPainter::Measured LightPainter::sampled(std::uint32_t x, std::uint32_t y, c
   Effort effort = pilot;
   std::uint64_t purpose = pilot_purpose;
   if (around.mixed) {
-    effort = effort_for(shadow_share * options_.expected_noise, around.beta);
+    effort = effort_for(shadow_share * options_.expected_noise, !(around.beta > 0));
     purpose = shadow_purpose;
   } else {
     // The pilot's own samples are repeated, unless they are known to add nothing.
@@ -168,7 +167,32 @@ void LightPainter::paint_row(std::uint32_t row, RayCounts& counts) {
     if (light_.delta || (regions == nullptr && (!centre || stage_.thing(centre->thing).paint == nullptr))) continue;
     const Measured shadow = sampled(x, row, around, centre, counts);
     value_[pixel] += shadow.value;
-    variance_[pixel] += shadow.variance;
+    if (shadows_ && around.mixed && around.beta > 0 && regions == nullptr) {
+      mixed_variance_[pixel] = shadow.variance;
+      is_mixed_[pixel] = 1;
+    } else {
+      variance_[pixel] += shadow.variance;
+    }
+  }
+}
+
+// Where little is blocked most pixels happen to sample none of it, and would state a variance of 0: what neighbours on the same surface
+// measured is as good for a pixel as its own.
+void LightPainter::pool_row(std::uint32_t row) {
+  for (std::uint32_t x = 0; x < options_.width; ++x) {
+    const std::size_t pixel = index(x, row);
+    if (is_mixed_[pixel] == 0) continue;
+    Rgb sum;
+    int count = 0;
+    for (std::uint32_t j = row > reach ? row - reach : 0; j <= std::min(row + reach, options_.height - 1); ++j) {
+      for (std::uint32_t i = x > reach ? x - reach : 0; i <= std::min(x + reach, options_.width - 1); ++i) {
+        const std::size_t other = index(i, j);
+        if (is_mixed_[other] == 0 || survey_.key(other) != survey_.key(pixel)) continue;
+        sum += mixed_variance_[other];
+        ++count;
+      }
+    }
+    variance_[pixel] += sum / count;
   }
 }
 

@@ -26,7 +26,7 @@ class LightPainter {
 
   static constexpr int centre_passes = 5;
   static constexpr double gentle_bend = 0.01;  // Curvature::relative up to which second differences give a pixel's mean
-  static constexpr std::size_t passes = 2 + centre_passes;
+  static constexpr std::size_t passes = 3 + centre_passes;
   // Fills width x height values and variances. False: cancelled.
   bool run(RowRunner& rows);
   const std::vector<Rgb>& value() const { return value_; }
@@ -62,6 +62,7 @@ class LightPainter {
   void centre_row(std::uint32_t row, int pass, RayCounts& counts);
   std::optional<Response> interpolated(std::uint32_t x, std::uint32_t y, const Rgb& colour) const;
   void paint_row(std::uint32_t row, RayCounts& counts);
+  void pool_row(std::uint32_t row);
   Surroundings surroundings(std::uint32_t x, std::uint32_t y) const;
   bool centre_is_needed(std::uint32_t x, std::uint32_t y) const;
   bool is_uneven(std::size_t pixel) const;
@@ -101,6 +102,8 @@ class LightPainter {
   std::vector<float> centre_bound_;   // what its error may be
   std::vector<std::uint8_t> known_;   // where they hold something
   std::vector<Rgb> value_, variance_;
+  std::vector<Rgb> mixed_variance_;     // of the samples in smooth pixels whose shadows are mixed
+  std::vector<std::uint8_t> is_mixed_;  // which those are
 };
 
 }  // namespace etendue::rendering
