@@ -24,7 +24,8 @@ std::string numbers(const std::vector<double>& values) {
 bool mirrors(WebSymmetry s, WebSymmetry one) { return s == one || s == WebSymmetry::lateral_and_vertical; }
 
 // web_emitter.py says what its parameters mean.
-Status write_plugin(Writer& writer, const LightEntry& entry, const IntensityWeb& web, const Rgb& factor) {
+Status write_plugin(Writer& writer, const LightEntry& entry, const IntensityWeb& web, const std::optional<SpotShape>& cone,
+                    const Rgb& factor) {
   const std::vector<double>& polar = web.polar().nodes();
   std::vector<double> azimuth = web.azimuth().nodes();
   if (azimuth.empty()) azimuth = {0};
@@ -49,6 +50,8 @@ Status write_plugin(Writer& writer, const LightEntry& entry, const IntensityWeb&
   add_float(emitter, "quarter", web.symmetry() == WebSymmetry::quadrant ? 90 : never);
   add_boolean(emitter, "mirror_polar", mirrors(web.symmetry(), type_a ? WebSymmetry::vertical : WebSymmetry::lateral));
   add_boolean(emitter, "mirror_azimuth", mirrors(web.symmetry(), type_a ? WebSymmetry::lateral : WebSymmetry::vertical));
+  add_float(emitter, "cone_inner", cone ? cone->inner_rad * 180 / pi : 180);
+  add_float(emitter, "cone_outer", cone ? cone->outer_rad * 180 / pi : 180);
   add_matrix(emitter, "to_world", entry.light.transform.rigid());
   return Done{};
 }
@@ -113,14 +116,23 @@ Status write_photometric(Writer& writer, const LightEntry& entry) {
   const Result<eval::Emitter> emitter = eval::emitter_of(entry.light);
   if (!emitter) return emitter.error();
   const auto& punctual = std::get<eval::PunctualEmitter>(emitter->shape);
-  const IntensityWeb& web = *std::get<eval::ProfileShape>(punctual.shape).web;
+  const auto& profile = std::get<eval::ProfileShape>(punctual.shape);
+  const IntensityWeb& web = *profile.web;
   if (!(web.flux_lm() > 0)) return Done{};
-  if (writer.webs == MitsubaWebs::themselves) return write_plugin(writer, entry, web, punctual.intensity);
+  if (writer.webs == MitsubaWebs::themselves) return write_plugin(writer, entry, web, profile.cone, punctual.intensity);
 
+  WebShade cone;
+  ShadedWeb shaded{web};
+  if (profile.cone) {
+    cone = {[spot = *profile.cone](const Vec3d& d) { return spot_falloff(spot, -d.z); }, eval::flux_lm(profile)};
+    if (!(cone.flux_lm > 0)) return Done{};
+    shaded.shade = &cone;
+    shaded.outer_rad = profile.cone->outer_rad;
+  }
   const double wanted_cd = wanted * web.max_cd();
-  const std::optional<WebSpot> spot = web_spot(web, wanted_cd, fewest_texels, most_texels);
+  const std::optional<WebSpot> spot = web_spot(shaded, wanted_cd, fewest_texels, most_texels);
   if (spot && spot->error_cd <= wanted_cd) return write_spot(writer, entry, web, punctual.intensity, *spot);
-  const Result<WebBake> cube = bake_within(web, BakeLayout::cube, wanted_cd, fewest_texels, most_texels);
+  const Result<WebBake> cube = bake_within(web, BakeLayout::cube, wanted_cd, fewest_texels, most_texels, shaded.shade);
   if (spot && !(cube && cube->error_cd < spot->error_cd)) return write_spot(writer, entry, web, punctual.intensity, *spot);
   if (!cube)
     return unsupported("light '" + entry.light.name + "' has a beam narrower than the texels of a cube about it", entry.light.source);

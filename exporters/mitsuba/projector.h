@@ -24,6 +24,9 @@ std::vector<float> tabulate(std::uint32_t width, std::uint32_t height, double x_
   return rgb;
 }
 
+// I / I(0) of a spot towards a direction whose cosine to the axis is given.
+double spot_falloff(const SpotShape& spot, double cosine);
+
 // Mitsuba's projector sends pi t / cos^3 for a texture value t: t = I cos^3 / pi, with cos = 1 / sqrt(1 + x^2 + y^2) of the direction
 // (x, y, 1).
 Rgb projector_value(const Rgb& intensity, double x, double y);

@@ -10,15 +10,6 @@ namespace {
 // Above this half angle a spot's texture, which lies on a plane in front of it, is stretched too much.
 constexpr double widest_spot_rad = 80 * pi / 180;
 
-// I / I(0) of a spot: the squared linear ramp in the cosine between the outer and the inner cone.
-double spot_falloff(const SpotShape& spot, double cosine) {
-  const double outer = std::cos(spot.outer_rad), inner = std::cos(spot.inner_rad);
-  if (cosine <= outer) return 0;
-  if (cosine >= inner) return 1;
-  const double ramp = (cosine - outer) / (inner - outer);
-  return ramp * ramp;
-}
-
 // Texels along a side so that the ramp is at least 128 of them wide: between texel centres the bilinear form is off by up to (n/128)^-2
 // 2e-5 of the axis' value, and at the ramp's inner end, where the slope jumps by 2 / width, one texel ring by up to .2 %.
 std::uint32_t spot_texels(const SpotShape& spot) {
@@ -60,6 +51,15 @@ Status write_wide_spot(Writer& writer, const LightEntry& entry, const SpotShape&
 }
 
 }  // namespace
+
+// The squared linear ramp in the cosine between the outer and the inner cone.
+double spot_falloff(const SpotShape& spot, double cosine) {
+  const double outer = std::cos(spot.outer_rad), inner = std::cos(spot.inner_rad);
+  if (cosine <= outer) return 0;
+  if (cosine >= inner) return 1;
+  const double ramp = (cosine - outer) / (inner - outer);
+  return ramp * ramp;
+}
 
 Rgb projector_value(const Rgb& intensity, double x, double y) {
   const double cosine = 1 / std::sqrt(1 + x * x + y * y);

@@ -2,11 +2,14 @@
 
 Parameters: `filename` (a float picture, a row a plane and a column a polar angle, candelas in its channels), `polar` and `azimuth` (the angles in
 degrees, separated by blanks), `type` (C, A or B), `half`, `quarter` (beyond which a mirror folds the azimuth of type C, from its first plane),
-`mirror_polar`, `mirror_azimuth` (types A and B), `turn` (degrees), `clockwise`, `to_world`. Linear in both angles, 0 outside the table.
+`mirror_polar`, `mirror_azimuth` (types A and B), `turn` (degrees), `clockwise`, `cone_inner` and `cone_outer` (half angles of a spot's cone over it, in
+degrees; 180: none), `to_world`. Linear in both angles, 0 outside the table.
 """
 
 
 def register_web_emitter(mi):
+    import math
+
     import drjit as dr
     import numpy as np
 
@@ -38,6 +41,7 @@ def register_web_emitter(mi):
             self.type = props["type"]
             self.turn, self.half, self.quarter = (float(props[name]) for name in ("turn", "half", "quarter"))
             self.clockwise = bool(props["clockwise"])
+            self.inner, self.outer = (math.cos(math.radians(props[name])) for name in ("cone_inner", "cone_outer"))
             self.mirrors = bool(props["mirror_polar"]), bool(props["mirror_azimuth"])
             self.polar, self.azimuth = Axis(props["polar"]), Axis(props["azimuth"])
             table = mi.Bitmap(str(mi.file_resolver().resolve(props["filename"])))
@@ -71,7 +75,14 @@ def register_web_emitter(mi):
                 return near + s * (far - near)
 
             near = along(j)
-            return near if self.azimuth.count == 1 else near + t * (along(j + 1) - near)
+            return self.passed(-direction.z) * (near if self.azimuth.count == 1 else near + t * (along(j + 1) - near))
+
+        def passed(self, cosine):
+            """The share that the cone lets through."""
+            if self.outer == self.inner:
+                return dr.select(cosine >= self.inner, mi.Float(1), 0)
+            ramp = dr.clip((cosine - self.outer) / (self.inner - self.outer), 0, 1)
+            return ramp * ramp
 
         def sample_direction(self, it, sample, active=True):
             to_light = self.position - it.p

@@ -37,7 +37,7 @@ double half_angle(const IntensityWeb& web) {
 
 class Table {
  public:
-  Table(const IntensityWeb& web, double outer_rad, std::uint32_t texels)
+  Table(const ShadedWeb& web, double outer_rad, std::uint32_t texels)
       : web_(web), extent_(std::tan(outer_rad)), texels_(static_cast<int>(texels)) {
     for (int row = 0; row < texels_; ++row)
       for (int column = 0; column < texels_; ++column) cd_.push_back(web_towards(column, row));
@@ -83,7 +83,7 @@ class Table {
   double web_towards(double column, double row) const {
     const double x = -place(column), y = place(row), leg = std::hypot(x, y);
     const double held = leg > extent_ ? extent_ * (1 - 1e-9) / leg : 1;
-    return web_.towards({x * held, y * held, -1});
+    return web_.towards(normalised(Vec3d{x * held, y * held, -1}));
   }
   double interpolated(double column, double row) const {
     const int i = std::min(static_cast<int>(column), texels_ - 2), j = std::min(static_cast<int>(row), texels_ - 2);
@@ -94,7 +94,7 @@ class Table {
     return (1 - t) * ((1 - s) * at(i, j) + s * at(i + 1, j)) + t * ((1 - s) * at(i, j + 1) + s * at(i + 1, j + 1));
   }
 
-  const IntensityWeb& web_;
+  const ShadedWeb& web_;
   double extent_;
   int texels_;
   std::vector<double> cd_;
@@ -102,8 +102,8 @@ class Table {
 
 }  // namespace
 
-std::optional<WebSpot> web_spot(const IntensityWeb& web, double wanted_cd, std::uint32_t fewest, std::uint32_t most) {
-  const double outer_rad = half_angle(web);
+std::optional<WebSpot> web_spot(const ShadedWeb& web, double wanted_cd, std::uint32_t fewest, std::uint32_t most) {
+  const double table_rad = half_angle(web.web), outer_rad = web.shade != nullptr ? std::min(table_rad, web.outer_rad) : table_rad;
   if (outer_rad > widest_rad || !(outer_rad > 0)) return {};
   std::optional<WebSpot> spot;
   for (std::uint32_t texels = fewest; texels <= most; texels *= 2) {

@@ -1,7 +1,7 @@
 // A web whose light all goes into a cone, as the picture of one spot.
 #pragma once
 
-#include "etendue/intensity_web.h"
+#include "etendue/photometric_bake.h"
 
 #include <optional>
 #include <vector>
@@ -18,7 +18,17 @@ struct WebSpot {
   double error_cd = 0;        // as WebBake's
 };
 
+// A web of which a shade leaves nothing outside a cone about the nadir.
+struct ShadedWeb {
+  const IntensityWeb& web;
+  const WebShade* shade = nullptr;  // none: all is left
+  double outer_rad = 0;             // with a shade alone
+
+  double towards(const Vec3d& unit) const { return shade != nullptr ? shade->share(unit) * web.towards(unit) : web.towards(unit); }
+  double flux_lm() const { return shade != nullptr ? shade->flux_lm : web.flux_lm(); }
+};
+
 // Nothing where light leaves a cone of 60 degrees about the nadir, or where the beam is finer than the texels. Sizes as in bake_within().
-std::optional<WebSpot> web_spot(const IntensityWeb& web, double wanted_cd, std::uint32_t fewest, std::uint32_t most);
+std::optional<WebSpot> web_spot(const ShadedWeb& web, double wanted_cd, std::uint32_t fewest, std::uint32_t most);
 
 }  // namespace etendue::mitsuba

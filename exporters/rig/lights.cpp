@@ -96,7 +96,15 @@ struct WriteShape {
     write_scale(json, s.scale);
     return Done{};
   }
-  Status operator()(const PhotometricShape& s) const { return file(place_photometry(writer, s)); }
+  Status operator()(const PhotometricShape& s) const {
+    if (s.cone) {
+      json.key("cone");
+      json.begin_object();
+      static_cast<void>((*this)(*s.cone));
+      json.end_object();
+    }
+    return file(place_photometry(writer, s));
+  }
   Status operator()(const EnvironmentShape& s) const { return s.image ? file(place_image(writer, *s.image)) : Status(Done{}); }
 
  private:

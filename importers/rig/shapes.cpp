@@ -24,6 +24,7 @@ std::optional<double> read_angle(Reader& reader, JsonValue value, double max, Cl
   return {};
 }
 
+// "outer" and "inner".
 SpotShape read_spot(Reader& reader, Fields& fields) {
   // "90 deg" may come out a rounding error above pi / 2.
   constexpr double right_angle = pi / 2 * (1 + 1e-15);
@@ -115,7 +116,13 @@ EnvironmentShape read_environment(Reader& reader, Fields& fields) {
 
 PhotometricShape read_photometric(Reader& reader, Fields& fields) {
   const std::optional<std::filesystem::path> path = read_path(reader, fields.require("file"), true);
-  return {path ? path->generic_string() : std::string()};
+  PhotometricShape shape{path ? path->generic_string() : std::string()};
+  if (const JsonValue cone = fields.find("cone")) {
+    Fields angles(cone, reader.diagnostics);
+    shape.cone = read_spot(reader, angles);
+    angles.finish();
+  }
+  return shape;
 }
 
 Shape read_known_shape(Reader& reader, Fields& fields, std::string_view type) {

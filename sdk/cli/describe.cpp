@@ -9,6 +9,7 @@
 
 #include "etendue/camera.h"
 #include "etendue/intensity_web.h"
+#include "etendue/photometric_quantities.h"
 
 namespace etendue::cli {
 namespace {
@@ -37,7 +38,9 @@ std::string describe_shape(const Shape& shape) {
     std::string operator()(const TubeShape& s) { return fmt::format(" {} m, radius {} m", number(s.length), number(s.radius)); }
     std::string operator()(const LineShape& s) { return fmt::format(" {} m", number(s.length)); }
     std::string operator()(const MeshShape&) { return ""; }
-    std::string operator()(const PhotometricShape& s) { return s.embedded ? " embedded" : " " + s.file; }
+    std::string operator()(const PhotometricShape& s) {
+      return (s.embedded ? " embedded" : " " + s.file) + (s.cone ? " through a cone of" + (*this)(*s.cone) : "");
+    }
     std::string operator()(const EnvironmentShape& s) { return s.image ? " map" : !s.cube.empty() ? " cube" : " constant"; }
   } text;
   return name_of(shape) + std::visit(text, shape);
@@ -109,7 +112,10 @@ std::string rgb_text(const Rgb& rgb) {
 // What a photometric file emits as it is, before colour, filter and a stated flux.
 std::string web_text(const PhotometricShape& shape) {
   const Result<IntensityWeb> web = shape.distribution ? IntensityWeb::of(*shape.distribution) : Result<IntensityWeb>(Error{});
-  return web ? fmt::format("  up to {:.6g} cd, {:.6g} lm", web->max_cd(), web->flux_lm()) : "";
+  if (!web) return "";
+  if (!shape.cone) return fmt::format("  up to {:.6g} cd, {:.6g} lm", web->max_cd(), web->flux_lm());
+  const double passed = flux_through_cone(*web, in_degrees(shape.cone->inner_rad), in_degrees(shape.cone->outer_rad));
+  return fmt::format("  up to {:.6g} cd, {:.6g} lm, {:.6g} lm through its cone", web->max_cd(), web->flux_lm(), passed);
 }
 
 std::string image_name(const Scene& scene, const Texture& texture) {

@@ -51,7 +51,7 @@ struct CheckShape {
   bool operator()(const PhotometricShape& s) const {
     const bool given = !s.file.empty() || s.embedded;
     if (!given) check.error("FILE_MISSING", "expected the name of an .ies or .ldt file");
-    return given;
+    return given && (!s.cone || (*this)(*s.cone));
   }
   bool operator()(const EnvironmentShape& s) const {
     if (!s.cube.empty() && (s.image || s.cube.size() != 6))

@@ -166,6 +166,34 @@ TEST(EmitterOf, PhotometricLightsSendTheirWeb) {
               0.05);  // the web's own flux is 400 pi within its steps
 }
 
+// A cone over the web multiplies it, as a spot's own falloff does; a stated flux is what passes. The web is the closed form 100 (1 - z) in
+// steps of half a degree, so with c = -z the flux through a cone is 200 pi (integral of (1 + c) share dc), and with x = (c - o) / (i - o)
+//   share = x^2 between o and i: (i - o) ((1 + o) / 3 + (i - o) / 4), and 1 from i to 1: (1 - i) + (1 - i^2) / 2.
+TEST(EmitterOf, AConeOverAPhotometricLightMultipliesIt) {
+  const auto web = std::make_shared<const IntensityDistribution>(test::distribution_of(
+      WebType::c, WebSymmetry::rotational, test::steps(0, 180, 0.5), {0}, [](const Vec3d& u) { return 100 - 100 * u.z; }));
+  const SpotShape cone{0.4, 0.9};
+  const Emitter plain = *emitter_of(light_with(PhotometricShape{"", {}, web}, Emission::Given::as_file, 0));
+  const Emitter through = *emitter_of(light_with(PhotometricShape{"", {}, web, cone}, Emission::Given::as_file, 0));
+  const Emitter spot = *emitter_of(light_with(cone, Emission::Given::intensity, 1));
+  for (double theta = 0; theta < pi; theta += 0.01) {
+    const Vec3d place{2 * std::sin(theta) * std::cos(7 * theta), 2 * std::sin(theta) * std::sin(7 * theta), -2 * std::cos(theta)};
+    const auto lux = [&](const Emitter& e) { return luminance_of(illuminance(e, place, -place / 2)); };
+    EXPECT_NEAR(lux(through), lux(plain) * lux(spot) * 4, 1e-12 * lux(plain)) << theta;
+  }
+  const double i = std::cos(cone.inner_rad), o = std::cos(cone.outer_rad), a = i - o;
+  const double passed = 200 * pi * (a * ((1 + o) / 3 + a / 4) + (1 - i) + (1 - i * i) / 2);
+  const auto& profile = std::get<ProfileShape>(std::get<PunctualEmitter>(through.shape).shape);
+  EXPECT_NEAR(flux_lm(profile) / passed, 1, 1e-5);  // a web in steps of h misses h^2 / 12 of its second derivative
+  const Emitter scaled = *emitter_of(light_with(PhotometricShape{"", {}, web, cone}, Emission::Given::flux, 10 * flux_lm(profile)));
+  EXPECT_NEAR(luminance_of(illuminance(scaled, {0, 0, -2}, {0, 0, 1})), 10 * 200.0 / 4, 1e-9);
+  // Nothing passes where the web is dark inside the cone.
+  const auto upwards = std::make_shared<const IntensityDistribution>(
+      test::distribution_of(WebType::c, WebSymmetry::rotational, {0, 90, 180}, {0}, [](const Vec3d& u) { return std::max(0.0, u.z); }));
+  EXPECT_EQ(emitter_of(light_with(PhotometricShape{"", {}, upwards, cone}, Emission::Given::flux, 5)).error().code,
+            "EVALUATION_UNSUPPORTED");
+}
+
 TEST(EmitterOf, RefusesWhatItCannotDo) {
   const Result<Emitter> ies = emitter_of(light_with(PhotometricShape{"lamp.ies"}, Emission::Given::as_file, 0));
   ASSERT_FALSE(ies);

@@ -88,7 +88,10 @@ struct SayShape {
     say(said, s.mesh);
     say(said, s.scale);
   }
-  void operator()(const PhotometricShape& s) const { say(said, fs::weakly_canonical(s.file).string()); }
+  void operator()(const PhotometricShape& s) const {
+    say(said, fs::weakly_canonical(s.file).string());
+    if (s.cone) (*this)(*s.cone);
+  }
   void operator()(const EnvironmentShape& s) const { say(said, s.image ? static_cast<int>(*s.image) : -1); }
 };
 
@@ -319,7 +322,9 @@ class Generator {
       case 10:
         return MeshShape{static_cast<std::uint32_t>(below(2)), maybe() ? Vec3d{1, 1, 1} : vec(0.5, 2)};
       case 11:
-        return PhotometricShape{(folder_ / "textures" / "lamp.ies").string()};
+        return PhotometricShape{
+            .file = (folder_ / "textures" / "lamp.ies").string(),
+            .cone = maybe() ? std::nullopt : std::optional(SpotShape{maybe() ? 0 : between(0, 0.7), between(0.7, 1.5)})};
       default:
         return EnvironmentShape{maybe() ? std::nullopt : std::optional<std::uint32_t>(1)};
     }

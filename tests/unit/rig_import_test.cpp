@@ -306,6 +306,11 @@ TEST(RigImport, LightErrors) {
   shape(R"({"type": "photometric", "file": $"a/../../b.ies"})", "PATH_REFUSED", "/shape/file");
   shape(R"({"type": "photometric", "file": $"file:a.ies"})", "PATH_REFUSED", "/shape/file");
   shape(R"({"type": "photometric", "file": $"absent.ies"})", "FILE_MISSING", "/shape/file");
+  expect_told(
+      R"({"etendue": 1, "lights": [{"shape": {"type": "photometric", "file": $"absent.ies", "cone": {"outer": "30 deg", "inner": $"31 deg"}}}]})",
+      {{"FILE_MISSING", "/lights/0/shape/file"}, {"VALUE_OUT_OF_RANGE", "/lights/0/shape/cone/inner"}});
+  expect_told(R"({"etendue": 1, "lights": [{"shape": {"type": "photometric", "file": $"absent.ies", "cone": ${}}}]})",
+              {{"FILE_MISSING", "/lights/0/shape/file"}, {"KEY_MISSING", "/lights/0/shape/cone"}});
   shape(R"({"type": "mesh", "gltf": $"absent.glb"})", "FILE_MISSING", "/shape/gltf");
   const auto more = [&](std::string_view fields, std::string_view code, std::string_view pointer) {
     expect_light_told(std::string(bulb) + std::string(fields), code, pointer);

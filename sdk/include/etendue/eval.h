@@ -74,10 +74,13 @@ double window_at(const Window& window, double distance_m);
 // Emission pattern over a planar emitter's own uv in [0,1]^2, or a mesh's texture coordinates; multiplies the radiance.
 using Pattern = std::function<Rgb(Vec2d uv)>;
 
-// cd towards a direction of the light's own frame, times PunctualEmitter::intensity.
+// cd towards a direction of the light's own frame, times PunctualEmitter::intensity; with a cone, times the share that it lets through.
 struct ProfileShape {
   std::shared_ptr<const IntensityWeb> web;
+  std::optional<SpotShape> cone = {};
 };
+double flux_lm(const ProfileShape& profile);  // that passes the cone
+
 struct PunctualEmitter {
   Vec3d position;
   Transform frame;  // rigid; emission along its -Z

@@ -57,6 +57,8 @@ struct PhotometricShape {
   SharedBytes embedded = {};  // the text of such a file, inside an asset
   // What it says; null until somebody reads it (read_photometric_lights()).
   std::shared_ptr<const IntensityDistribution> distribution = {};
+  // Of a spot with its profile: what multiplies the file's candelas, 1 inside and 0 outside. A stated flux is what passes it.
+  std::optional<SpotShape> cone = {};
 };
 struct EnvironmentShape {
   // Index into Scene::images; none: constant. Latitude-longitude as in OpenEXR and Mitsuba: the direction (x, y, z) in the light's frame is

@@ -5,6 +5,7 @@
 #include "etendue/intensity_web.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,13 @@ struct CubeFace {
 };
 std::span<const CubeFace> cube_faces();  // nadir, zenith, C0, C90, C180, C270
 
+// What stands before a luminaire: the share of the web's intensity that is left towards a unit vector, and the flux that is left. It may
+// have one bend or edge between texels, as a table has.
+struct WebShade {
+  std::function<double(const Vec3d&)> share;
+  double flux_lm = 0;
+};
+
 struct WebBake {
   BakeLayout layout = BakeLayout::profile;
   std::uint32_t width = 0, height = 0, pictures = 1;
@@ -56,8 +64,10 @@ struct WebBake {
 Result<WebBake> bake(const IntensityWeb& web, BakeLayout layout, std::uint32_t size);
 
 // The coarsest of sizes `fewest`, 2 `fewest`, ... `most` that is within `wanted_cd`. Where doubling gains less than a tenth, as at the
-// bright end of a table, whose blur keeps its height at any size, or at `most`, the last one tried; its error says so.
-Result<WebBake> bake_within(const IntensityWeb& web, BakeLayout layout, double wanted_cd, std::uint32_t fewest, std::uint32_t most);
+// bright end of a table, whose blur keeps its height at any size, or at `most`, the last one tried; its error says so. With a shade, of
+// what it leaves.
+Result<WebBake> bake_within(const IntensityWeb& web, BakeLayout layout, double wanted_cd, std::uint32_t fewest, std::uint32_t most,
+                            const WebShade* shade = nullptr);
 
 // The values as a mask of mean 1 over all directions (cube: divided by the web's mean intensity too): a lamp of `flux` lm, I = mask x
 // flux / (4 pi), emits exactly its own flux. Frostbite's mask divides by the largest intensity instead, which loses flux / (4 pi mean).

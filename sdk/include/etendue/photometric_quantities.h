@@ -46,6 +46,10 @@ LightOutput light_output(const IntensityDistribution& distribution, const Intens
 inline constexpr std::array<double, 4> cie_cone_deg{41.409622109270856, 60, 75.522487814070076, 90};
 std::array<double, 4> cie_cone_flux_lm(const IntensityWeb& web);
 
+// lm that pass a cone about the nadir: all of the intensity up to the inner half angle, none from the outer one on (up to 180 degrees), and
+// between them the square of (cos gamma - cos outer) / (cos inner - cos outer), as of a spot. To 1e-9 of the flux.
+double flux_through_cone(const IntensityWeb& web, double inner_deg, double outer_deg);
+
 // NEMA's beam types of floodlights by the field angle: 1 from 10 to 18 degrees, 2 to 29, 3 to 46, 4 to 70, 5 to 100, 6 to 130, 7 beyond.
 // Nothing below 10 degrees.
 std::optional<int> nema_type(double field_deg);

@@ -1,6 +1,7 @@
 // From a light as authored to what shines in the world.
 #include "etendue/eval.h"
 #include "etendue/intensity_web.h"
+#include "etendue/photometric_quantities.h"
 #include "triangulate.h"
 
 #include <algorithm>
@@ -95,22 +96,28 @@ struct ShapeOf {
   EmitterShape operator()(const PhotometricShape&) const { return EmitterShape{}; }  // profile_of(), which may fail
 };
 
-// A stated flux scales the whole web: `resolved` has it times the luminance of colour and filter, which stand in its rgb as well.
+// A stated flux scales what is emitted: `resolved` has it times the luminance of colour and filter, which stand in its rgb as well.
 Result<PunctualEmitter> profile_of(const Light& light, const PhotometricShape& shape, const Resolved& resolved, const Transform& frame) {
   if (!shape.distribution) return unsupported(light, "its photometric file was not read");
   Result<IntensityWeb> web = IntensityWeb::of(*shape.distribution);
   if (!web) return web.error();
+  ProfileShape profile{std::make_shared<const IntensityWeb>(std::move(*web)), shape.cone};
   double factor = 1;
   if (light.emission.given == Emission::Given::flux) {
-    const double own = web->flux_lm() * luminance_of(resolved.rgb);
-    if (!(own > 0) && resolved.flux_lm > 0) return unsupported(light, "its photometric file is dark and cannot be scaled to a flux");
+    const double own = flux_lm(profile) * luminance_of(resolved.rgb);
+    if (!(own > 0) && resolved.flux_lm > 0)
+      return unsupported(light, "its photometric file sends no light out and cannot be scaled to a flux");
     factor = own > 0 ? resolved.flux_lm / own : 0;
   }
-  return PunctualEmitter{frame.translation, frame, resolved.rgb * factor,
-                         ProfileShape{std::make_shared<const IntensityWeb>(std::move(*web))}};
+  return PunctualEmitter{frame.translation, frame, resolved.rgb * factor, std::move(profile)};
 }
 
 }  // namespace
+
+double flux_lm(const ProfileShape& profile) {
+  if (!profile.cone) return profile.web->flux_lm();
+  return flux_through_cone(*profile.web, degrees.of({profile.cone->inner_rad}), degrees.of({profile.cone->outer_rad}));
+}
 
 Result<Emitter> emitter_of(const Light& light, const EmitterParts& parts) {
   const auto* sky = std::get_if<EnvironmentShape>(&light.shape);

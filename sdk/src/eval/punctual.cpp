@@ -46,7 +46,10 @@ std::optional<Incident> incident_from(const PunctualEmitter& emitter, const Wind
     double operator()(const PointShape&) const { return 1; }
     double operator()(const SpotShape& s) const { return angular_falloff(s, local); }
     double operator()(const FrustumShape& f) const { return angular_falloff(f, local); }
-    double operator()(const ProfileShape& p) const { return p.web->towards(local); }
+    double operator()(const ProfileShape& p) const {
+      const double passed = p.cone ? angular_falloff(*p.cone, local) : 1;
+      return passed > 0 ? passed * p.web->towards(local) : 0;
+    }
   };
   const double share = std::visit(Share{local}, emitter.shape);
   return Incident{towards, distance, emitter.intensity * (share * window_at(window, distance) / (distance * distance))};

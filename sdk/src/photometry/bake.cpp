@@ -16,8 +16,11 @@ constexpr std::uint32_t largest_size = 8192;
 
 TexelGrid grid_of(const WebBake& bake) { return {bake.layout, bake.width, bake.height}; }
 
+double share_of(const WebShade* shade, const Vec3d& direction) { return shade != nullptr ? shade->share(direction) : 1; }
+double flux_of(const IntensityWeb& web, const WebShade* shade) { return shade != nullptr ? shade->flux_lm : web.flux_lm(); }
+
 // The largest deviation a quarter of a texel apart, borders included. `batch` is the web in float: its own error counts as deviation.
-double deviation_at_texels(const WebBake& bake, const WebBatch& batch) {
+double deviation_at_texels(const WebBake& bake, const WebBatch& batch, const WebShade* shade) {
   const TexelGrid grid = grid_of(bake);
   constexpr std::uint32_t places = 4;
   const double border = grid.border();
@@ -37,7 +40,8 @@ double deviation_at_texels(const WebBake& bake, const WebBatch& batch) {
       if (!batch.towards(x, y, z, cd, 0)) continue;  // the spans are of one size
       for (std::uint32_t i = 0; i < columns; ++i) {
         const double found = grid.interpolated(bake.values, place(i)) * grid.candelas_per_value(place(i));
-        worst = std::max(worst, std::abs(found - cd[i]));
+        const double wanted = shade != nullptr ? cd[i] * shade->share(grid.direction(place(i))) : cd[i];
+        worst = std::max(worst, std::abs(found - wanted));
       }
     }
   }
@@ -57,7 +61,7 @@ std::vector<double> places_along(const std::vector<double>& nodes) {
 }
 
 // The largest deviation where the table has its bends and ends.
-double deviation_at_table(const WebBake& bake, const IntensityWeb& web) {
+double deviation_at_table(const WebBake& bake, const IntensityWeb& web, const WebShade* shade) {
   const std::vector<double>& azimuths = web.azimuth().nodes();
   const std::vector<double> polar = places_along(web.polar().nodes());
   const std::vector<double> azimuth = azimuths.size() < 2 ? std::vector<double>{0} : places_along(azimuths);
@@ -67,7 +71,7 @@ double deviation_at_table(const WebBake& bake, const IntensityWeb& web) {
       if (theta < 0 || theta > 180) continue;
       for (const double phi : azimuth) {
         const Vec3d d = direction_of(web.type(), web.unfolded(theta, phi, copy), web.frame());
-        worst = std::max(worst, std::abs(bake.towards(d) - web.towards(d)));
+        worst = std::max(worst, std::abs(bake.towards(d) - share_of(shade, d) * web.towards(d)));
       }
     }
   }
@@ -88,7 +92,7 @@ double flux_between(const WebBake& bake, std::uint32_t first_picture, std::uint3
   return sum;
 }
 
-WebBake baked(const IntensityWeb& web, const WebBatch& batch, BakeLayout layout, std::uint32_t size) {
+WebBake baked(const IntensityWeb& web, const WebBatch& batch, BakeLayout layout, std::uint32_t size, const WebShade* shade) {
   WebBake bake;
   bake.layout = layout;
   const bool about_axis = layout == BakeLayout::profile || layout == BakeLayout::c_gamma;
@@ -102,20 +106,21 @@ WebBake baked(const IntensityWeb& web, const WebBatch& batch, BakeLayout layout,
     for (std::uint32_t row = 0; row < bake.height; ++row) {
       for (std::uint32_t column = 0; column < bake.width; ++column) {
         const TexelGrid::Place place{picture, static_cast<double>(column), static_cast<double>(row)};
-        exact.push_back(web.towards(grid.direction(place)) / grid.candelas_per_value(place));
+        const Vec3d d = grid.direction(place);
+        exact.push_back(share_of(shade, d) * web.towards(d) / grid.candelas_per_value(place));
       }
     }
   }
   bake.values.assign(exact.begin(), exact.end());
-  const double sampled = flux_between(bake, 0, bake.pictures), factor = sampled > 0 ? web.flux_lm() / sampled : 1;
+  const double sampled = flux_between(bake, 0, bake.pictures), factor = sampled > 0 ? flux_of(web, shade) / sampled : 1;
   std::transform(exact.begin(), exact.end(), bake.values.begin(), [&](double value) { return static_cast<float>(value * factor); });
   bake.flux_lm = flux_between(bake, 0, bake.pictures);
-  bake.error_cd = 4.0 / 3 * std::max(deviation_at_texels(bake, batch), deviation_at_table(bake, web));
+  bake.error_cd = 4.0 / 3 * std::max(deviation_at_texels(bake, batch, shade), deviation_at_table(bake, web, shade));
   return bake;
 }
 
-Status usable(const IntensityWeb& web, const WebBake& bake) {
-  if (bake.flux_lm > 0 || !(web.flux_lm() > 0)) return Done{};
+Status usable(double flux_lm, const WebBake& bake) {
+  if (bake.flux_lm > 0 || !(flux_lm > 0)) return Done{};
   return Error{
       "BAKE_TOO_COARSE", fmt::format("expected texels finer than the beam, found it between those of {} rows", bake.height), {}, {}, {}};
 }
@@ -137,24 +142,25 @@ double WebBake::flux_of_picture(std::uint32_t picture) const { return flux_betwe
 
 Result<WebBake> bake(const IntensityWeb& web, BakeLayout layout, std::uint32_t size) {
   if (const Status s = check_size(size); !s) return s.error();
-  WebBake result = baked(web, WebBatch(web), layout, size);
-  if (const Status s = usable(web, result); !s) return s.error();
+  WebBake result = baked(web, WebBatch(web), layout, size, nullptr);
+  if (const Status s = usable(web.flux_lm(), result); !s) return s.error();
   return result;
 }
 
-Result<WebBake> bake_within(const IntensityWeb& web, BakeLayout layout, double wanted_cd, std::uint32_t fewest, std::uint32_t most) {
+Result<WebBake> bake_within(const IntensityWeb& web, BakeLayout layout, double wanted_cd, std::uint32_t fewest, std::uint32_t most,
+                            const WebShade* shade) {
   for (const std::uint32_t size : {fewest, most})
     if (const Status s = check_size(size); !s) return s.error();
   const WebBatch batch(web);
   WebBake result;
   double coarser_cd = HUGE_VAL;
   for (std::uint32_t size = fewest;; size *= 2) {
-    result = baked(web, batch, layout, size);
-    const bool lit = bool(usable(web, result)), stuck = result.error_cd > 0.9 * coarser_cd;
+    result = baked(web, batch, layout, size, shade);
+    const bool lit = bool(usable(flux_of(web, shade), result)), stuck = result.error_cd > 0.9 * coarser_cd;
     if ((lit && (result.error_cd <= wanted_cd || stuck)) || 2 * std::uint64_t{size} > most) break;
     coarser_cd = lit ? result.error_cd : HUGE_VAL;
   }
-  if (const Status s = usable(web, result); !s) return s.error();
+  if (const Status s = usable(flux_of(web, shade), result); !s) return s.error();
   return result;
 }
 
