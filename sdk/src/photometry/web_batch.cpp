@@ -1,4 +1,5 @@
-// A web's table looked up in vectors: two arc tangents, two cells, four gathers.
+// A web's table looked up block by block: two arc tangents in vectors, two cells, then the corners of all of a block, copied one by one,
+// for which the processor does not wait in turn as it does for the lanes of a gather, and their mean in vectors.
 #include "etendue/web_batch.h"
 
 #include "batch_error.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -22,10 +24,13 @@ namespace etendue {
 struct WebBatch::Table {
   struct Axis {
     float start = 0, end = 0, cells_per_unit = 0, last_cell = 0;
-    bool uniform = false;                                  // interval and position are those of the cell
-    int most_steps = 0;                                    // from the interval of a cell's lower end to that of any x in the cell
-    std::vector<std::int32_t> first{};                     // by cell
-    std::vector<float> lower{}, inverse_width{}, upper{};  // by interval; the last one has no upper end
+    bool uniform = false;               // interval and position are those of the cell
+    int most_steps = 0;                 // from the interval of a cell's lower end to that of any x in the cell
+    std::vector<std::int32_t> first{};  // by cell
+    struct Interval {
+      float lower, inverse_width, upper;  // the last one has no upper end
+    };
+    std::vector<Interval> interval{};
   };
   WebType type = WebType::c;
   float y_sign = 1, turn_deg = 0;
@@ -35,6 +40,17 @@ struct WebBatch::Table {
   Axis polar{}, azimuth{};
   std::int32_t stride = 0;       // polar angles
   std::vector<float> candela{};  // polar angle fastest
+};
+
+// Directions that are looked up together.
+struct WebBatchBlock {
+  static constexpr std::size_t size = 256;
+  alignas(64) float polar_deg[size], azimuth_deg[size];
+  alignas(64) float other[size];                        // where it is dark or no direction
+  alignas(64) std::int32_t is_lit[size];                // -1 or 0
+  alignas(64) std::int32_t polar[size], azimuth[size];  // intervals
+  alignas(64) float polar_at[size], azimuth_at[size];   // and where in them, 0 to 1
+  alignas(64) float near[2 * size], far[2 * size];      // both ends of an interval along two planes
 };
 
 }  // namespace etendue
@@ -65,25 +81,25 @@ HWY_INLINE V atan2_deg(D d, V y, V x) {
   return hn::IfThenElse(hn::Lt(y, zero), hn::Neg(half), half);
 }
 
-template <class V, class I>
-struct Place {
-  I interval;
-  V position;
-};
-template <class D, class V = hn::Vec<D>, class I = hn::Vec<hn::RebindToSigned<D>>>
-HWY_INLINE Place<V, I> place(D d, const WebBatch::Table::Axis& axis, V x) {
+// Intervals and positions of `count` angles, a whole number of vectors.
+template <class D>
+HWY_INLINE void place(D d, const WebBatch::Table::Axis& axis, const float* x, std::size_t count, std::int32_t* interval, float* position) {
   const hn::RebindToSigned<D> di;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const V cell = hn::Mul(hn::Sub(x, hn::Set(d, axis.start)), hn::Set(d, axis.cells_per_unit));
-  const I number = hn::ConvertTo(di, hn::Min(hn::Max(cell, zero), hn::Set(d, axis.last_cell)));
-  if (axis.uniform) return {number, hn::Min(hn::Max(hn::Sub(cell, hn::ConvertTo(d, number)), zero), one)};
-  I i = hn::GatherIndex(di, axis.first.data(), number);
-  for (int k = 0; k < axis.most_steps; ++k) {
-    const auto beyond = hn::Ge(x, hn::GatherIndex(d, axis.upper.data(), i));
-    i = hn::Sub(i, hn::VecFromMask(di, hn::RebindMask(di, beyond)));  // a true mask is -1
+  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto cell = hn::Mul(hn::Sub(hn::Load(d, x + i), hn::Set(d, axis.start)), hn::Set(d, axis.cells_per_unit));
+    const auto number = hn::ConvertTo(di, hn::Min(hn::Max(cell, zero), hn::Set(d, axis.last_cell)));
+    hn::Store(number, di, interval + i);
+    if (axis.uniform) hn::Store(hn::Min(hn::Max(hn::Sub(cell, hn::ConvertTo(d, number)), zero), one), d, position + i);
   }
-  const V position = hn::Mul(hn::Sub(x, hn::GatherIndex(d, axis.lower.data(), i)), hn::GatherIndex(d, axis.inverse_width.data(), i));
-  return {i, hn::Min(hn::Max(position, zero), one)};
+  if (axis.uniform) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    auto k = static_cast<std::size_t>(axis.first[static_cast<std::size_t>(interval[i])]);
+    for (int step = 0; step < axis.most_steps; ++step) k += x[i] >= axis.interval[k].upper ? 1 : 0;
+    const WebBatch::Table::Axis::Interval& w = axis.interval[k];
+    interval[i] = static_cast<std::int32_t>(k);
+    position[i] = std::min(std::max((x[i] - w.lower) * w.inverse_width, 0.0f), 1.0f);
+  }
 }
 
 // From the azimuth of type C, turned already, into the table's: `past` its first plane, mirrored.
@@ -96,31 +112,59 @@ HWY_INLINE V folded(D d, const WebBatch::Table& t, V azimuth) {
   return hn::Add(past, hn::Set(d, t.azimuth.start));
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V candelas(D d, const WebBatch::Table& t, V polar, V azimuth) {
+// What is known of N directions before the table is looked up. The number of lanes outside the domain.
+template <class D, class V = hn::Vec<D>, class M>
+HWY_INLINE std::size_t keep(D d, const WebBatch::Table& t, V polar, V azimuth, M valid, float where_none, std::size_t at,
+                            WebBatchBlock& block) {
   const hn::RebindToSigned<D> di;
-  auto lit = hn::And(hn::Ge(polar, hn::Set(d, t.polar.start)), hn::Le(polar, hn::Set(d, t.polar.end)));
-  const auto p = place(d, t.polar, polar);
-  const float* const table = t.candela.data();
-  const auto one = hn::Set(di, 1);
-  if (t.one_plane) {
-    const V near = hn::GatherIndex(d, table, p.interval), far = hn::GatherIndex(d, table, hn::Add(p.interval, one));
-    return hn::IfThenElseZero(lit, hn::MulAdd(p.position, hn::Sub(far, near), near));
-  }
+  auto lit = hn::And(valid, hn::And(hn::Ge(polar, hn::Set(d, t.polar.start)), hn::Le(polar, hn::Set(d, t.polar.end))));
   if (t.type != WebType::c)
     lit = hn::And(lit, hn::And(hn::Ge(azimuth, hn::Set(d, t.azimuth.start)), hn::Le(azimuth, hn::Set(d, t.azimuth.end))));
-  const auto a = place(d, t.azimuth, azimuth);
-  const auto first = hn::Add(hn::Mul(a.interval, hn::Set(di, t.stride)), p.interval), second = hn::Add(first, hn::Set(di, t.stride));
-  const V y0 = hn::GatherIndex(d, table, first), y1 = hn::GatherIndex(d, table, hn::Add(first, one));
-  const V z0 = hn::GatherIndex(d, table, second), z1 = hn::GatherIndex(d, table, hn::Add(second, one));
-  const V near = hn::MulAdd(p.position, hn::Sub(y1, y0), y0), far = hn::MulAdd(p.position, hn::Sub(z1, z0), z0);
-  return hn::IfThenElseZero(lit, hn::MulAdd(a.position, hn::Sub(far, near), near));
+  // No number of theirs leads out of the table.
+  hn::Store(hn::IfThenElseZero(lit, polar), d, block.polar_deg + at);
+  hn::Store(hn::IfThenElseZero(lit, azimuth), d, block.azimuth_deg + at);
+  hn::Store(hn::IfThenElse(valid, hn::Zero(d), hn::Set(d, where_none)), d, block.other + at);
+  hn::Store(hn::VecFromMask(di, hn::RebindMask(di, lit)), di, block.is_lit + at);
+  return hn::Lanes(d) - hn::CountTrue(d, valid);
+}
+
+// The table at all of a block, `count` a whole number of vectors; results over `other`.
+template <class D>
+HWY_INLINE void look_up(D d, const WebBatch::Table& t, std::size_t count, WebBatchBlock& block) {
+  using V = hn::Vec<D>;
+  const hn::RebindToSigned<D> di;
+  place(d, t.polar, block.polar_deg, count, block.polar, block.polar_at);
+  if (!t.one_plane) place(d, t.azimuth, block.azimuth_deg, count, block.azimuth, block.azimuth_at);
+  const float* const table = t.candela.data();
+  const auto stride = static_cast<std::size_t>(t.stride);
+  if (t.one_plane) {
+    for (std::size_t i = 0; i < count; ++i) std::memcpy(block.near + 2 * i, table + block.polar[i], 2 * sizeof(float));
+  } else {
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* const corner = table + static_cast<std::size_t>(block.azimuth[i]) * stride + static_cast<std::size_t>(block.polar[i]);
+      std::memcpy(block.near + 2 * i, corner, 2 * sizeof(float));
+      std::memcpy(block.far + 2 * i, corner + stride, 2 * sizeof(float));
+    }
+  }
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const V along = hn::Load(d, block.polar_at + i);
+    V start, end;
+    hn::LoadInterleaved2(d, block.near + 2 * i, start, end);
+    V value = hn::MulAdd(along, hn::Sub(end, start), start);
+    if (!t.one_plane) {
+      hn::LoadInterleaved2(d, block.far + 2 * i, start, end);
+      const V far = hn::MulAdd(along, hn::Sub(end, start), start);
+      value = hn::MulAdd(hn::Load(d, block.azimuth_at + i), hn::Sub(far, value), value);
+    }
+    const auto lit = hn::RebindMask(d, hn::MaskFromVec(hn::Load(di, block.is_lit + i)));
+    hn::Store(hn::IfThenElse(lit, value, hn::Load(d, block.other + i)), d, block.other + i);
+  }
 }
 
 // The number of lanes outside the domain.
 template <class D>
-HWY_INLINE std::size_t lookup(D d, const WebBatch::Table& t, const float* xs, const float* ys, const float* zs, float* cd,
-                              float where_none) {
+HWY_INLINE std::size_t from_vectors(D d, const WebBatch::Table& t, const float* xs, const float* ys, const float* zs, float where_none,
+                                    std::size_t at, WebBatchBlock& block) {
   using V = hn::Vec<D>;
   const V x = hn::LoadU(d, xs), y = hn::Mul(hn::LoadU(d, ys), hn::Set(d, t.y_sign)), z = hn::LoadU(d, zs), minus_z = hn::Neg(z);
   const V xx = hn::Mul(x, x), yy = hn::Mul(y, y), zz = hn::Mul(z, z);
@@ -146,53 +190,60 @@ HWY_INLINE std::size_t lookup(D d, const WebBatch::Table& t, const float* xs, co
     if (t.mirror_polar) polar = hn::Max(polar, hn::Sub(hn::Set(d, 180.0f), polar));
   }
 
-  hn::StoreU(hn::IfThenElse(valid, candelas(d, t, polar, azimuth), hn::Set(d, where_none)), d, cd);
-  return hn::Lanes(d) - hn::CountTrue(d, valid);
+  return keep(d, t, polar, azimuth, valid, where_none, at, block);
 }
 
 template <class D>
-HWY_INLINE std::size_t lookup(D d, const WebBatch::Table& t, const float* cs, const float* gammas, float* cd, float where_none) {
+HWY_INLINE std::size_t from_angles(D d, const WebBatch::Table& t, const float* cs, const float* gammas, float where_none, std::size_t at,
+                                   WebBatchBlock& block) {
   using V = hn::Vec<D>;
   const V c = hn::LoadU(d, cs), gamma = hn::LoadU(d, gammas);
   const auto valid = hn::And(hn::Le(hn::Abs(c), hn::Set(d, 720.0f)), hn::Le(hn::Abs(gamma), hn::Set(d, 720.0f)));
   const V turned = hn::IfThenElseZero(valid, hn::MulSub(c, hn::Set(d, t.y_sign), hn::Set(d, t.turn_deg)));
-  hn::StoreU(hn::IfThenElse(valid, candelas(d, t, gamma, folded(d, t, turned)), hn::Set(d, where_none)), d, cd);
-  return hn::Lanes(d) - hn::CountTrue(d, valid);
+  return keep(d, t, gamma, folded(d, t, turned), valid, where_none, at, block);
 }
 
-// body(inputs..., out), each of whole vectors; what is left at the end through vectors of its own, filled up with 1, which is in the
-// domain.
-template <std::size_t Inputs, class Body>
-HWY_INLINE std::size_t over_vectors(const float* const (&in)[Inputs], float* out, std::size_t count, Body body) {
+// Block by block: first(inputs..., place in the block, block) of whole vectors, then the table. What is left at the end goes through a
+// vector of its own, filled up with 1, which is in the domain.
+template <std::size_t Inputs, class First>
+HWY_INLINE std::size_t over_blocks(const WebBatch::Table& t, const float* const (&in)[Inputs], float* out, std::size_t count, First first) {
   const hn::ScalableTag<float> d;
   const std::size_t lanes = hn::Lanes(d);
-  std::size_t without = 0, i = 0;
+  std::size_t without = 0;
+  WebBatchBlock block;
+  HWY_ALIGN float last[Inputs][hn::MaxLanes(d)];
   const float* at[Inputs];
-  for (; i + lanes <= count; i += lanes) {
-    for (std::size_t k = 0; k < Inputs; ++k) at[k] = in[k] + i;
-    without += body(at, out + i);
+  for (std::size_t from = 0; from < count; from += WebBatchBlock::size) {
+    const std::size_t here = std::min(WebBatchBlock::size, count - from);
+    std::size_t i = 0;
+    for (; i < here; i += lanes) {
+      const bool whole = i + lanes <= here;
+      for (std::size_t k = 0; k < Inputs; ++k) {
+        at[k] = whole ? in[k] + from + i : last[k];
+        if (whole) continue;
+        std::fill_n(last[k], lanes, 1.0f);
+        std::copy(in[k] + from + i, in[k] + count, last[k]);
+      }
+      without += first(at, i, block);
+    }
+    look_up(d, t, i, block);
+    std::copy_n(block.other, here, out + from);
   }
-  if (i == count) return without;
-  HWY_ALIGN float last[Inputs + 1][hn::MaxLanes(d)];
-  for (std::size_t k = 0; k < Inputs; ++k) {
-    std::fill_n(last[k], lanes, 1.0f);
-    std::copy(in[k] + i, in[k] + count, last[k]);
-    at[k] = last[k];
-  }
-  without += body(at, last[Inputs]);
-  std::copy_n(last[Inputs], count - i, out + i);
   return without;
 }
 
 std::size_t Towards(const WebBatch::Table& t, const float* x, const float* y, const float* z, float* cd, std::size_t count,
                     float where_none) {
   const hn::ScalableTag<float> d;
-  return over_vectors<3>({x, y, z}, cd, count,
-                         [&](const auto& in, float* out) { return lookup(d, t, in[0], in[1], in[2], out, where_none); });
+  return over_blocks<3>(t, {x, y, z}, cd, count, [&](const auto& in, std::size_t at, WebBatchBlock& block) {
+    return from_vectors(d, t, in[0], in[1], in[2], where_none, at, block);
+  });
 }
 std::size_t At(const WebBatch::Table& t, const float* c, const float* gamma, float* cd, std::size_t count, float where_none) {
   const hn::ScalableTag<float> d;
-  return over_vectors<2>({c, gamma}, cd, count, [&](const auto& in, float* out) { return lookup(d, t, in[0], in[1], out, where_none); });
+  return over_blocks<2>(t, {c, gamma}, cd, count, [&](const auto& in, std::size_t at, WebBatchBlock& block) {
+    return from_angles(d, t, in[0], in[1], where_none, at, block);
+  });
 }
 
 }  // namespace
@@ -220,12 +271,10 @@ WebBatch::Table::Axis axis_of(const AngleAxis& from) {
   double narrowest = range;
   for (std::size_t i = 0; i < intervals; ++i) {
     const auto lower = static_cast<float>(nodes[i]), upper = static_cast<float>(nodes[i + 1]);
-    axis.lower.push_back(lower);
-    axis.upper.push_back(upper);
-    axis.inverse_width.push_back(upper > lower ? 1 / (upper - lower) : 0);
+    axis.interval.push_back({lower, upper > lower ? 1 / (upper - lower) : 0, upper});
     narrowest = std::min(narrowest, nodes[i + 1] - nodes[i]);
   }
-  axis.upper.back() = std::numeric_limits<float>::infinity();
+  axis.interval.back().upper = std::numeric_limits<float>::infinity();
   const double most_cells = 8 * static_cast<double>(intervals);
   const auto cells = axis.uniform ? intervals : static_cast<std::size_t>(std::clamp(std::ceil(range / narrowest), 1.0, most_cells));
   axis.cells_per_unit = static_cast<float>(static_cast<double>(cells) / range);
