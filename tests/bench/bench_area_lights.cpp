@@ -1,0 +1,97 @@
+// Run time against error of area lights' diffuse light: batches of 4096 points, one thread.
+#include "etendue/illuminance_batch.h"
+
+#include <fmt/format.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench.h"
+#include "eval_protocol.h"
+
+namespace {
+
+using namespace etendue;
+using namespace etendue::eval;
+using protocol::Kind;
+
+constexpr std::size_t count = 4096;
+
+// One light, points all around at the protocol's distances and with its normals: those above its horizon or those that it crosses.
+struct Case {
+  Emitter light;
+  std::optional<LightBatch> prepared;
+  std::vector<float> px, py, pz, nx, ny, nz, sr;
+  PointBatch batch() const { return {px, py, pz, nx, ny, nz, {}}; }
+
+  Case(Kind kind, bool mixed) : sr(count) {
+    protocol::Random random(11);
+    light = protocol::white(kind == Kind::sphere ? EmitterShape(SphereEmitter{{}, 1})
+                                                 : EmitterShape(protocol::rectangle({}, {1, 0, 0}, {0, 1, 0}, 1, 0.7)));
+    prepared = *LightBatch::of(light);
+    while (px.size() < count) {
+      const double nearest = kind == Kind::sphere ? 1.05 : 0.5, farthest = kind == Kind::sphere ? 6 : 3;
+      Vec3d p = random.direction() * random.uniform(nearest, farthest);
+      if (kind != Kind::sphere) p.z = std::max(std::abs(p.z), 0.02);
+      const Vec3d n = random.direction();
+      const double low = protocol::lowest(light.shape, p, n), high = -protocol::lowest(light.shape, p, -n);
+      if (high <= 0 || (low < 0) != (mixed && px.size() % 2 == 0)) continue;
+      px.push_back(static_cast<float>(p.x)), py.push_back(static_cast<float>(p.y)), pz.push_back(static_cast<float>(p.z));
+      nx.push_back(static_cast<float>(n.x)), ny.push_back(static_cast<float>(n.y)), nz.push_back(static_cast<float>(n.z));
+    }
+  }
+  Vec3d position(std::size_t i) const { return {px[i], py[i], pz[i]}; }
+  Vec3d normal(std::size_t i) const { return normalised(Vec3d{nx[i], ny[i], nz[i]}); }
+
+  void in_vectors() {
+    if (!prepared->projected_solid_angles(batch(), sr, 0)) std::fill(sr.begin(), sr.end(), -1.0f);
+    bench::keep(sr.data());
+  }
+  void one_by_one() {
+    for (std::size_t i = 0; i < count; ++i) sr[i] = static_cast<float>(illuminance(light, position(i), normal(i)).x);
+    bench::keep(sr.data());
+  }
+  std::string error() {
+    in_vectors();
+    double sum = 0, worst = 0;
+    std::size_t judged = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double expected = illuminance(light, position(i), normal(i)).x;
+      if (expected < 1e-3) continue;
+      const double relative = std::abs(static_cast<double>(sr[i]) - expected) / expected;
+      sum += relative, worst = std::max(worst, relative), ++judged;
+    }
+    return fmt::format("mean {:.1e}, largest {:.1e}", sum / static_cast<double>(judged), worst);
+  }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bench::Bench table;
+  std::vector<std::unique_ptr<Case>> cases;
+  for (const Kind kind : {Kind::rect, Kind::sphere}) {
+    for (const bool mixed : {false, true}) {
+      cases.push_back(std::make_unique<Case>(kind, mixed));
+      Case& c = *cases.back();
+      bench::Task& task = table.task(fmt::format("{}, {}", kind == Kind::rect ? "rectangle" : "sphere",
+                                                 mixed ? "half of them cut by the horizon" : "above the horizon"),
+                                     count);
+      task.contender("one by one, in double", bench::Kind::anchor, "", [&c] { c.one_by_one(); });
+      task.contender("in vectors", bench::Kind::ours, c.error(), [&c] { c.in_vectors(); });
+      for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        task.contender(fmt::format("  {}", hwy::TargetName(target)), bench::Kind::ours, "", [&c, target] {
+          hwy::SetSupportedTargetsForTest(target);
+          c.in_vectors();
+          hwy::SetSupportedTargetsForTest(0);
+        });
+      }
+    }
+  }
+  return table.run(argc, argv);
+}
