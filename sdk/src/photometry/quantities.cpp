@@ -44,7 +44,7 @@ double flux_through_cone(const IntensityWeb& web, double inner_deg, double outer
   if (web.type() == WebType::c) {
     cuts.insert(cuts.end(), web.polar().nodes().begin(), web.polar().nodes().end());
   } else {
-    for (double cut = 5; cut < 180; cut += 5) cuts.push_back(cut);
+    for (int cut = 5; cut < 180; cut += 5) cuts.push_back(cut);
   }
   std::erase_if(cuts, [&](double cut) { return cut < inner_deg || cut > outer_deg; });
   std::sort(cuts.begin(), cuts.end());
