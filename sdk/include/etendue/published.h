@@ -40,4 +40,12 @@ std::span<const DiffuseMethod> diffuse_methods();
 // Null if no method has the name.
 const DiffuseMethod* find_diffuse_method(std::string_view name);
 
+// Frostbite's parts that are no illuminance.
+// Listing 9: what multiplies a disk's illuminance to fade it out as a spot: the cone's share (listing 4) seen from behind the disk, where a
+// cone of the outer angle (half of the whole, below pi / 2) through its rim has its tip.
+double frostbite_disk_cone(const DiskEmitter& disk, const SpotShape& cone, const Vec3d& position);
+// Listing 15: the direction for which Disney's diffuse lobe of that linear roughness is evaluated in the normal's place, between the normal
+// and the view (all unit).
+Vec3d frostbite_diffuse_direction(const Vec3d& normal, const Vec3d& view, double roughness);
+
 }  // namespace etendue::eval

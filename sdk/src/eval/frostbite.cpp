@@ -1,16 +1,100 @@
 // Lagarde and de Rousiers, "Moving Frostbite to Physically Based Rendering 3.0" (2014), 4.7.2 and appendix E.
+#include "contour.h"
+#include "punctual.h"
 #include "representative_point.h"
+#include "silhouette.h"
 #include "solid_angle.h"
 
 namespace etendue::eval {
 namespace {
 
-// Listing 12: the solid angle times the mean of the clamped cosines towards the corners and the centre.
-double mean_cosine(const RectView& rect, const Vec3d& n) {
-  double sum = cosine_towards(rect.centre, n);
-  for (const Vec3d& p : rect.corners()) sum += cosine_towards(p, n);
-  return sum / 5;
+// ---- Spheres and disks ----
+
+double listing_7_without_horizon(const SphereView& sphere, const Vec3d& n) {
+  const double r2 = sphere.radius * sphere.radius, d2 = dot(sphere.centre, sphere.centre);
+  return pi * (r2 / std::max(r2, d2)) * cosine_towards(sphere.centre, n);
 }
+double listing_7(const SphereView& sphere, const Vec3d& n) {
+  const double beta = std::acos(dot(n, shader_normalise(sphere.centre))), h = length(sphere.centre) / sphere.radius;
+  if (h * std::cos(beta) > 1) return pi * std::cos(beta) / (h * h);
+  const double x = std::sqrt(h * h - 1), y = -x / std::tan(beta), root = std::sin(beta) * std::sqrt(1 - y * y);
+  return (std::cos(beta) * std::acos(y) - x * root) / (h * h) + std::atan(root / x);
+}
+
+double listing_8_without_horizon(const DiskView& disk, const Vec3d& n) {
+  const double h2 = dot(disk.centre, disk.centre) / (disk.radius * disk.radius);
+  return pi * cosine_towards(-disk.centre, disk.normal) * cosine_towards(disk.centre, n) / (h2 + 1);
+}
+double listing_8(const DiskView& disk, const Vec3d& n) {
+  const double theta = std::acos(dot(n, shader_normalise(disk.centre))), h = length(disk.centre) / disk.radius, h2 = h * h;
+  double factor = std::cos(theta) / (1 + h2);
+  if (!(theta < std::atan(h))) {
+    const double cot = std::cos(theta) / std::sin(theta), x = std::sqrt(1 - h2 * cot * cot);
+    factor = (-h * x * std::sin(theta) / (1 + h2) + std::atan(x * std::sin(theta) / h) +
+              std::cos(theta) * (pi - std::acos(h * cot)) / (1 + h2)) /
+             pi;
+  }
+  return factor * pi * cosine_towards(-disk.centre, disk.normal);
+}
+
+// Listing 10's function: a cap of directions with the sine squared s2 of its half angle about an axis with the cosine z from the normal.
+double sphere_or_disk(double z, double s2) {
+  if (z * z > s2) return pi * s2 * saturate(z);
+  const double sine = std::sqrt(1 - z * z), x = std::sqrt(1 / s2 - 1), y = -x * (z / sine), root = sine * std::sqrt(1 - y * y);
+  return std::max((z * std::acos(y) - x * root) * s2 + std::atan(root / x), 0.0);
+}
+// The same where rounding leaves the domain of the roots, and for a cap that is a hemisphere: pi / 2 (1 + z).
+double cap_above(double z, double s2) {
+  if (s2 >= 1) return 0.5 * pi * (1 + z);
+  if (!(s2 > 0)) return 0;
+  if (z * z > s2) return pi * s2 * saturate(z);
+  const double sine = std::sqrt(1 - z * z), x = std::sqrt((1 - s2) / s2), y = std::clamp(-x * z / sine, -1.0, 1.0);
+  const double root = sine * std::sqrt(1 - y * y);
+  return std::max((z * std::acos(y) - x * root) * s2 + std::atan2(root, x), 0.0);
+}
+
+double listing_10_cosine(const SphereView& sphere, const Vec3d& n) {
+  return std::clamp(dot(n, shader_normalise(sphere.centre)), -0.999, 0.999);
+}
+double listing_10_sphere(const SphereView& sphere, const Vec3d& n) {
+  const double s2 = std::min(sphere.radius * sphere.radius / dot(sphere.centre, sphere.centre), 0.9999);
+  return sphere_or_disk(listing_10_cosine(sphere, n), s2);
+}
+double listing_10_disk(const DiskView& disk, const Vec3d& n) {
+  const double r2 = disk.radius * disk.radius, s2 = r2 / (r2 + std::max(r2, dot(disk.centre, disk.centre)));
+  return sphere_or_disk(dot(n, shader_normalise(disk.centre)), s2) * cosine_towards(-disk.centre, disk.normal);
+}
+// From inside as from the surface next to it.
+double sphere_mended(const SphereView& sphere, const Vec3d& n) {
+  const double d2 = dot(sphere.centre, sphere.centre), d = std::sqrt(d2), r2 = sphere.radius * sphere.radius;
+  if (!(r2 > 0)) return 0;
+  return d > 0 ? cap_above(std::clamp(dot(n, sphere.centre) / d, -1.0, 1.0), std::min(r2 / d2, 1.0)) : 0.5 * pi;
+}
+double listing_10_disk_mended(const DiskView& disk, const Vec3d& n) {
+  const double r2 = disk.radius * disk.radius, d2 = dot(disk.centre, disk.centre), d = std::sqrt(d2);
+  return cap_above(std::clamp(dot(n, disk.centre) / d, -1.0, 1.0), r2 / (r2 + d2)) * disk.height() / d;
+}
+// The disk's own vector of illuminance, exact for every tilt, in the place of a facing disk's; the horizon cuts it as a sphere's.
+double disk_mended(const DiskView& disk, const Vec3d& n) {
+  const Vec3d e = direction_integral(disk_silhouette(disk.centre, disk.normal, disk.radius, false));
+  const double facing = length(e);
+  return facing > 0 ? cap_above(std::clamp(dot(n, e) / facing, -1.0, 1.0), std::min(facing / pi, 1.0)) : 0;
+}
+
+// Listing 14: beyond five times the diameter the inverse square.
+double listing_14_sphere(const SphereView& sphere, const Vec3d& n) {
+  const double r2 = sphere.radius * sphere.radius, d2 = dot(sphere.centre, sphere.centre);
+  return d2 < 100 * r2 ? listing_10_sphere(sphere, n) : pi * r2 * saturate(listing_10_cosine(sphere, n)) / d2;
+}
+double listing_14_disk(const DiskView& disk, const Vec3d& n) {
+  const double r2 = disk.radius * disk.radius, d2 = dot(disk.centre, disk.centre);
+  if (d2 < 100 * r2) return listing_10_disk(disk, n);
+  return pi * r2 * cosine_towards(disk.centre, n) * cosine_towards(-disk.centre, disk.normal) / d2;
+}
+
+// ---- Rectangles ----
+
+// Listing 12: the solid angle times the mean clamped cosine.
 double listing_12(const RectView& rect, const Vec3d& n) { return solid_angle_printed(rect) * mean_cosine(rect, n); }
 // Where one of the five points is the shading point itself, which has no direction, the solid angle is 0.
 double listing_12_mended(const RectView& rect, const Vec3d& n) {
@@ -71,9 +155,82 @@ double light_position(const RectView& rect, const Vec3d& n) { return solid_angle
 double light_position_pyramid(const RectView& rect, const Vec3d& n) { return right_pyramid(rect) * cosine_towards(rect.centre, n); }
 double light_position_above(const RectView& rect, const Vec3d& n) { return solid_angle_above(rect, n) * cosine_towards(rect.centre, n); }
 
+// ---- Tubes ----
+
+// The cylinder as a rectangle about its axis that faces the point. The point's own distance from the axis gives the direction.
+RectView facing_rect(const TubeView& tube) {
+  const Vec3d span = tube.b - tube.a, left = shader_normalise(span);
+  const Vec3d forward = shader_normalise(tube.a - left * dot(tube.a, left));
+  return {(tube.a + tube.b) * 0.5, left, cross(left, forward), -forward, 0.5 * length(span), tube.radius};
+}
+// The caps as a sphere at the closest point of the axis.
+SphereView nearest_sphere(const TubeView& tube) {
+  const Vec3d span = tube.b - tube.a;
+  return {tube.a + span * saturate(-dot(tube.a, span) / dot(span, span)), tube.radius};
+}
+double listing_13(const TubeView& tube, const Vec3d& n) {
+  const SphereView sphere = nearest_sphere(tube);
+  return listing_12(facing_rect(tube), n) +
+         pi * cosine_towards(sphere.centre, n) * (tube.radius * tube.radius / dot(sphere.centre, sphere.centre));
+}
+// On the axis the cylinder is not seen, without a length there is none; inside as on the surface.
+double listing_13_mended(const TubeView& tube, const Vec3d& n) {
+  const Vec3d span = tube.b - tube.a;
+  const bool long_enough = dot(span, span) > 0, aside = length(cross(span, tube.a)) > 1e-12 * length(span) * length(tube.a);
+  const double caps = listing_7_without_horizon(long_enough ? nearest_sphere(tube) : SphereView{tube.a, tube.radius}, n);
+  const double cylinder = long_enough && aside ? listing_12_mended(facing_rect(tube), n) : 0;
+  return std::isfinite(caps) ? cylinder + caps : cylinder;
+}
+
+constexpr std::string_view listing_7_name = "Lagarde and de Rousiers 2014, listing 7",
+                           listing_8_name = "Lagarde and de Rousiers 2014, listing 8";
+constexpr std::string_view listing_10_name = "Lagarde and de Rousiers 2014, listing 10";
 constexpr std::string_view e1 = "Lagarde and de Rousiers 2014, listing E.1";
 constexpr std::string_view row = "Lagarde and de Rousiers 2014, table E.1";
 constexpr DiffuseMethod methods[] = {
+    {.name = "frostbite-7-without-horizon",
+     .source = listing_7_name,
+     .note = "pi (R / d)^2 times the cosine: exact for a sphere above the horizon; dark once its centre has set.",
+     .sphere = listing_7_without_horizon},
+    {.name = "frostbite-7",
+     .source = listing_7_name,
+     .note = "Tilted patch to sphere: exact. Printed: no number below the horizon (0 is right there) and inside the sphere.",
+     .sphere = listing_7},
+    {.name = "frostbite-7-mended",
+     .source = listing_7_name,
+     .note = "The same, defined everywhere; inside as on the surface next to it.",
+     .sphere = sphere_mended},
+    {.name = "frostbite-8-without-horizon",
+     .source = listing_8_name,
+     .note = "Far or facing disks only: the cosine at the light multiplies what a facing disk gives.",
+     .disk = listing_8_without_horizon},
+    {.name = "frostbite-8",
+     .source = listing_8_name,
+     .note = "Facing disk over the horizon times the cosine at the light: 98 of 100 tilted disks above the horizon get "
+             "between a quarter and 105 % of their light.",
+     .disk = listing_8},
+    {.name = "frostbite-8-mended",
+     .source = listing_8_name,
+     .note = "The tilted disk's own vector of illuminance: exact as long as the sphere of the same vector is above the horizon, "
+             "which cuts it as that sphere: 15 % off across.",
+     .disk = disk_mended},
+    {.name = "frostbite-10",
+     .source = listing_10_name,
+     .note =
+         "Sphere and disk as one function; exact for spheres but for clamps of the cosine to .999 and of the sine squared to .9999. Disks "
+         "as listing 8; from less than the radius as from the radius.",
+     .disk = listing_10_disk,
+     .sphere = listing_10_sphere},
+    {.name = "frostbite-10-mended",
+     .source = listing_10_name,
+     .note = "Without the clamps: spheres exact, facing disks at any distance; tilted disks as listing 8.",
+     .disk = listing_10_disk_mended,
+     .sphere = sphere_mended},
+    {.name = "frostbite-14",
+     .source = "Lagarde and de Rousiers 2014, listing 14",
+     .note = "Listing 10 up to five diameters, the inverse square beyond: 1 % too much for a facing disk there, all of what has half set.",
+     .disk = listing_14_disk,
+     .sphere = listing_14_sphere},
     {"frostbite-12", "Lagarde and de Rousiers 2014, listing 12",
      "Solid angle (listing 11) times the mean clamped cosine of corners and centre; 3 % off above the horizon, as much as the light itself "
      "across it; half of a close large light is lost. Printed: 0 for a side without length.",
@@ -108,10 +265,31 @@ constexpr DiffuseMethod methods[] = {
     {"frostbite-light-position-pyramid", row, "The same with a right pyramid's solid angle, which no tilt of the light lessens.",
      light_position_pyramid},
     {"frostbite-light-position-horizon", row, "The same with the solid angle above the horizon.", light_position_above},
+    {.name = "frostbite-13",
+     .source = "Lagarde and de Rousiers 2014, listing 13",
+     .note =
+         "Cylinder as a facing rectangle (listing 12), caps as a sphere at the closest point of the axis: 4 % off above the horizon, from "
+         "-22 % to +40 %; half of it across. Printed: no number on the axis.",
+     .tube = listing_13},
+    {.name = "frostbite-13-mended",
+     .source = "Lagarde and de Rousiers 2014, listing 13",
+     .note = "The same, defined on the axis, where only a cap is seen, without a length, and inside.",
+     .tube = listing_13_mended},
 };
 
 }  // namespace
 
 std::span<const DiffuseMethod> frostbite_methods() { return methods; }
+
+double frostbite_disk_cone(const DiskEmitter& disk, const SpotShape& cone, const Vec3d& position) {
+  const Vec3d apex = disk.centre - disk.normal * (disk.radius / std::tan(cone.outer_rad));
+  return angular_falloff(cone, {0, 0, -dot(disk.normal, normalised(position - apex))});
+}
+
+Vec3d frostbite_diffuse_direction(const Vec3d& normal, const Vec3d& view, double roughness) {
+  const double a = 1.02341 * roughness - 1.51174, b = -0.511705 * roughness + 0.755868;
+  const double share = saturate((dot(normal, view) * a + b) * roughness);
+  return normalised(normal + (view - normal) * share);
+}
 
 }  // namespace etendue::eval

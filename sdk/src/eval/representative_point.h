@@ -10,4 +10,11 @@ Vec3d most_representative(const RectView& rect, const Vec3d& n);
 
 inline double cosine_towards(const Vec3d& point, const Vec3d& n) { return saturate(dot(n, shader_normalise(point))); }
 
+// Of the corners and the centre (listing 12).
+inline double mean_cosine(const RectView& rect, const Vec3d& n) {
+  double sum = cosine_towards(rect.centre, n);
+  for (const Vec3d& p : rect.corners()) sum += cosine_towards(p, n);
+  return sum / 5;
+}
+
 }  // namespace etendue::eval
