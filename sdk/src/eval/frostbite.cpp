@@ -119,15 +119,9 @@ double listing_e1_right_handed(const RectView& rect, const Vec3d& n) {
   return form_factor(corners, n);
 }
 double listing_e1_mended(const RectView& rect, const Vec3d& n) {
-  double sum = 0;
-  const std::array<Vec3d, 4> corners = rect.corners();
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vec3d &a = corners[i], &b = corners[(i + 1) % 4];
-    const Vec3d m = cross(a, b - a);
-    const double sine = length(m);
-    if (sine > 0) sum += std::atan2(sine, dot(a, b)) * dot(m, n) / sine;
-  }
-  return std::max(0.5 * sum, 0.0);
+  std::array<Vec3d, 4> corners = rect.corners();
+  std::reverse(corners.begin(), corners.end());  // counter-clockwise about the light's normal
+  return std::max(dot(direction_integral(polygon_silhouette(corners, rect.normal, false)), n), 0.0);
 }
 
 // Listing E.2: a direction half way between the light's plane and the normal, cut with the plane, clamped to the rectangle.

@@ -26,13 +26,8 @@ Vec3d most_representative(const RectView& rect, const Vec3d& n) {
   const double h = rect.height();
   const Vec3d foot = rect.normal * -h, in_plane = n - rect.normal * dot(n, rect.normal);
   const double across = length(in_plane);
-  if (across > 0) {
-    const Vec3d inside = foot + in_plane * (highest_along(dot(n, foot), across, h * h) / across);
-    const Vec3d closest = rect.closest(inside);
-    if (length(closest - inside) <= 1e-12 * length(inside)) consider(closest);
-  } else {
-    consider(rect.closest(foot));
-  }
+  // A candidate outside is moved to the rectangle, where it does no harm.
+  consider(rect.closest(across > 0 ? foot + in_plane * (highest_along(dot(n, foot), across, h * h) / across) : foot));
   const std::array<Vec3d, 4> corners = rect.corners();
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec3d side = corners[(i + 1) % 4] - corners[i];
