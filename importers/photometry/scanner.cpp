@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -36,6 +37,44 @@ bool long_number(const char* begin, const char* end, double& value) {
     return e != end && e + 1 != end && e[1] == '-';
   }
   return code == std::errc() && std::isfinite(value);
+}
+
+// Eight characters at once, the first one in the lowest byte.
+constexpr std::uint64_t in_each_byte(std::uint64_t x) { return x * 0x0101010101010101; }
+
+// How many of the first bytes are digits: a byte less '0' is above 9 where it or itself plus 0x76 has its highest bit. Carries run towards
+// later characters alone, behind the first one that is none.
+int leading_digits(std::uint64_t characters) {
+  const std::uint64_t x = characters ^ in_each_byte('0');
+  return std::countr_zero(((x + in_each_byte(0x76)) | x) & in_each_byte(0x80)) / 8;
+}
+
+// The first `digits` of eight bytes as a number: pairs, then fours, then all, each time the earlier half times 10, 100 or 10^4 plus the
+// later one. What is shifted out behind the digits is filled up with zeros before them.
+std::uint64_t number_of(std::uint64_t characters, int digits) {
+  std::uint64_t x = (characters ^ in_each_byte('0')) << (64 - 8 * digits);
+  x = ((x & in_each_byte(0x0F)) * (1 + (10 << 8))) >> 8;
+  x = ((x & 0x00FF00FF00FF00FF) * (1 + (100 << 16))) >> 16;
+  return ((x & 0x0000FFFF0000FFFF) * (1 + (std::uint64_t{10000} << 32))) >> 32;
+}
+
+// A number that ends within eight characters, point included, and has no exponent; null: it is another one.
+const char* short_number(const char* p, double& magnitude) {
+  std::uint64_t characters = 0;
+  std::memcpy(&characters, p, sizeof characters);
+  const int whole = leading_digits(characters);
+  if (whole > 6) return nullptr;
+  int digits = whole, length = whole;
+  if (p[whole] == '.') {
+    // Without its point, behind which the rest moves up.
+    const std::uint64_t before = (std::uint64_t{1} << (8 * whole)) - 1;
+    characters = (characters & before) | ((characters >> 8) & ~before);
+    digits = leading_digits(characters);
+    length = digits + 1;
+  }
+  if (digits == 0 || length > 7 || (p[length] | 0x20) == 'e' || (p[length] | 0x20) == 'd') return nullptr;
+  magnitude = static_cast<double>(number_of(characters, digits)) / power_of_ten[digits - whole];
+  return p + length;
 }
 
 constexpr bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
@@ -119,6 +158,12 @@ const char* parse_number(const char* p, const char* const end, double& value) {
   const char* const begin = p;
   bool negative = false;
   if (p != end && (*p == '-' || *p == '+')) negative = *p++ == '-';
+  if (std::endian::native == std::endian::little && end - p >= 8) {
+    if (const char* const stop = short_number(p, value)) {
+      value = negative ? -value : value;
+      return stop;
+    }
+  }
   const char* const first = p;
   std::uint64_t m = 0;
   while (p != end && is_digit(*p)) m = m * 10 + static_cast<unsigned>(*p++ - '0');

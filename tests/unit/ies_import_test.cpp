@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <charconv>
+#include <random>
 #include <string>
 
 #include "etendue/intensity_web.h"
+#include "importers/photometry/scanner.h"
 
 namespace etendue {
 namespace {
@@ -90,6 +93,33 @@ TEST(IesImport, MalformationsAreRepairedAndNamedOrRefusedWhenStrict) {
     ASSERT_FALSE(refused) << code;
     EXPECT_EQ(refused.error().code, code);
     EXPECT_GT(refused.error().where.line, 0);
+  }
+}
+
+// To the last bit what from_chars makes of it, whatever its length and whatever stands behind it; what is none is none.
+TEST(IesImport, NumbersAreRoundedAsFromChars) {
+  std::mt19937 random(9);
+  const auto below = [&](unsigned n) { return static_cast<std::size_t>(random() % n); };
+  for (int i = 0; i < 200'000; ++i) {
+    std::string number;
+    for (std::size_t k = below(10); k > 0; --k) number += static_cast<char>('0' + below(10));
+    if (below(3) > 0) number += '.';
+    for (std::size_t k = below(10); k > 0; --k) number += static_cast<char>('0' + below(10));
+    if (number.empty() || number == ".") number += '7';
+    if (below(8) == 0) number += below(2) == 0 ? "e-3" : "E2";
+    const bool negative = below(4) == 0;
+    const std::string text = (negative ? "-" : below(4) == 0 ? "+" : "") + number;
+    double expected = 0, found = 0;
+    const auto [stop, code] = std::from_chars(number.data(), number.data() + number.size(), expected);
+    ASSERT_EQ(code, std::errc()) << number;
+    const std::string behind = below(2) == 0 ? text : text + std::string(1, "\r ,x"[below(4)]) + "12345678";
+    ASSERT_EQ(photometric::parse_number(behind.data(), behind.data() + behind.size(), found), behind.data() + text.size()) << behind;
+    ASSERT_EQ(found, negative ? -expected : expected) << behind;
+  }
+  for (const std::string none : {"", ".", "-", "+.", "e5", "x1", "1e", "1e+", "-.e1"}) {
+    double found = 0;
+    for (const std::string& text : {none, none + "         "})
+      EXPECT_EQ(photometric::parse_number(text.data(), text.data() + text.size(), found), nullptr) << text;
   }
 }
 
