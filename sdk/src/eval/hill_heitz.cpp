@@ -58,7 +58,8 @@ struct SphereProxy {
 SphereProxy proxy(const RectView& rect, const Vec3d& n) {
   const Vec3d f = edge_sum<edge_rational>(rect.corners()) / (2 * pi);
   const double l = length(f);
-  return {std::min(l, 1.0), l > 0 ? std::clamp(dot(f, n) / l, -1.0, 1.0) : 0};
+  if (!(l > 0)) return {0, 0};  // nor where an edge has no number
+  return {std::min(l, 1.0), std::clamp(dot(f, n) / l, -1.0, 1.0)};
 }
 
 double sphere_exact(const RectView& rect, const Vec3d& n) {
