@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "csv.h"
 #include "number_text.h"
 
 namespace etendue::cli {
@@ -17,20 +18,6 @@ void append_row(std::string& out, std::string_view before, double value, std::st
   end = fmt::format_to(end, FMT_COMPILE("{}"), value);
   end = std::copy(behind.begin(), behind.end(), end);
   out.append(row.data(), end);
-}
-
-// RFC 4180: in quotes where needed, a quote doubled.
-void append_field(std::string& out, std::string_view text) {
-  if (text.find_first_of(",\"\n\r") == std::string_view::npos) {
-    out += text;
-    return;
-  }
-  out += '"';
-  for (const char c : text) {
-    out += c;
-    if (c == '"') out += '"';
-  }
-  out += '"';
 }
 
 // Takes one field off a line: up to a comma, or in quotes, where a doubled quote is one (RFC 4180).

@@ -1,11 +1,13 @@
 // Direct-light pictures of a scene: primary rays and visibility through Embree, light from eval.h.
 #pragma once
 
+#include "etendue/eval.h"
 #include "etendue/io.h"
 #include "etendue/picture.h"
 #include "etendue/scene.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace etendue {
@@ -38,5 +40,9 @@ struct Rendered {
 
 // Errors: SCENE_INVALID (validate() found errors), CAMERA_MISSING, EVALUATION_UNSUPPORTED, CANCELLED, FILE_UNREADABLE (a texture).
 Result<Rendered> render(const Scene& scene, const RenderOptions& options, Progress* progress = nullptr);
+
+// Lights of a scene, by index, as what eval.h evaluates, with their meshes, textures and environments decoded. The scene has to be valid.
+// Errors: EVALUATION_UNSUPPORTED, FILE_UNREADABLE.
+Result<std::vector<eval::Emitter>> emitters_of(const Scene& scene, std::span<const std::uint32_t> lights);
 
 }  // namespace etendue

@@ -1,4 +1,5 @@
 #include "stage.h"
+#include "emitters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -151,34 +152,11 @@ Status Stage::add_lights(const Scene& scene, const RenderOptions& options) {
 }
 
 Result<eval::Emitter> Stage::emitter(const Scene& scene, const Light& light) {
-  eval::EmitterParts parts;
-  if (const auto* shape = std::get_if<MeshShape>(&light.shape)) {
-    const Mesh& mesh = scene.meshes[shape->mesh];
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-      const auto corner = [&](std::size_t k) { return vec_cast<double>(mesh.positions[mesh.indices[i + k]]); };
-      parts.triangles.push_back({corner(0), corner(1), corner(2)});
-      if (!light.emission.texture || mesh.uvs.empty()) continue;
-      const auto uv = [&](std::size_t k) { return Vec2d{mesh.uvs[mesh.indices[i + k]].x, mesh.uvs[mesh.indices[i + k]].y}; };
-      parts.uvs.push_back({uv(0), uv(1), uv(2)});
-    }
-  }
-  const auto* environment = std::get_if<EnvironmentShape>(&light.shape);
-  if (environment != nullptr && environment->image) {
-    Result<DecodedImage> decoded = decode(scene.images[*environment->image], Encoding::linear);
+  return emitter_in(scene, light, [&](const Texture& texture) -> Result<std::shared_ptr<const DecodedImage>> {
+    const Result<const DecodedImage*> decoded = image(scene, texture);
     if (!decoded) return decoded.error();
-    std::vector<Vec3f> pixels(std::size_t{decoded->width} * decoded->height);
-    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = {decoded->rgba[4 * i], decoded->rgba[4 * i + 1], decoded->rgba[4 * i + 2]};
-    parts.environment = eval::make_environment(decoded->width, decoded->height, std::move(pixels));
-  }
-  if (light.emission.texture) {
-    const Result<const DecodedImage*> decoded = image(scene, *light.emission.texture);
-    if (!decoded) return decoded.error();
-    parts.pattern = [pixels = *decoded, texture = *light.emission.texture](Vec2d uv) {
-      const Rgba texel = sample(*pixels, texture, uv);
-      return Rgb{texel.r, texel.g, texel.b};
-    };
-  }
-  return eval::emitter_of(light, parts);
+    return std::shared_ptr<const DecodedImage>(std::shared_ptr<const DecodedImage>{}, *decoded);  // the stage owns it
+  });
 }
 
 Status Stage::add_light(const Scene& scene, std::uint32_t index, bool lit, bool mitsuba_model) {

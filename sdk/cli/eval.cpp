@@ -1,0 +1,276 @@
+// etendue eval: the light of a rig at points.
+#include "etendue/eval.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "csv.h"
+#include "etendue/illuminance_batch.h"
+#include "etendue/published.h"
+#include "etendue/render.h"
+#include "eval_points.h"
+#include "limits.h"
+#include "verbs.h"
+
+namespace etendue::cli {
+namespace {
+
+using eval::Emitter;
+
+struct Options {
+  std::string asset, points, brdf = "lambert", base_colour = "0.5,0.5,0.5", method = "exact", masking = "correlated", lights, mute;
+  ImportOptions import;
+  double alpha = -1, roughness = -1, f0 = 0.04, f90 = 1, tolerance = 1e-4;
+  bool sum = false;
+};
+
+// Of one light at one point: lux or cd/m2, an absolute bound of the error in the worst channel, and how it was found.
+struct Answer {
+  Rgb value;
+  double bound = 0;
+  std::string_view method;
+};
+
+double largest(const Rgb& c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
+
+Error usage(std::string text, std::string hint = {}) { return {"USAGE", std::move(text), {}, std::move(hint), {}}; }
+
+// Rounding of a closed form in double: 1e-12 for a luminance of 1 (tests/unit/illuminance_property_test.cpp), and of the value.
+double rounding_of(const Emitter& emitter, const Rgb& value) { return 1e-12 * (largest(value) + largest(emitter.radiance)); }
+
+// Whether illuminance() has a closed form (eval.h).
+bool has_closed_form(const Emitter& emitter) {
+  const bool punctual =
+      std::holds_alternative<eval::PunctualEmitter>(emitter.shape) || std::holds_alternative<eval::DistantEmitter>(emitter.shape);
+  const auto* environment = std::get_if<eval::EnvironmentEmitter>(&emitter.shape);
+  const bool windowed = !punctual && emitter.window.falloff != Falloff::inverse_square && emitter.window.range_m > 0;
+  return !emitter.pattern && !windowed && (environment == nullptr || !environment->map);
+}
+
+std::optional<eval::Brdf> brdf_of(const Options& o, const Rgb& base, double roughness, Masking masking) {
+  if (o.brdf == "lambert") return Lambert{{1, 1, 1}};
+  if (o.brdf == "disney") return eval::DisneyDiffuse{base, roughness};
+  if (o.brdf == "frostbite") return eval::FrostbiteDiffuse{base, roughness};
+  if (o.brdf == "ggx") return eval::GgxLobe{roughness * roughness, {o.f0, o.f0, o.f0}, o.f90, masking};
+  if (o.brdf == "standard") return Standard{base, 0, roughness, std::sqrt(o.f0 / 0.16)};
+  if (o.brdf == "principled") return Principled{base, 0, roughness, o.f0 / 0.08};
+  return std::nullopt;
+}
+
+// How the lights are evaluated, checked before the first point is read.
+class Evaluator {
+ public:
+  static Result<Evaluator> of(const Options& options);
+
+  bool wants_view() const { return !lambert_; }
+  Answer operator()(const Emitter& emitter, const PointRow& point) const;
+  // Many points of one light; `fast` alone knows a shorter way.
+  std::vector<Answer> operator()(const Emitter& emitter, std::span<const PointRow> points) const;
+  // Whether the method takes this light.
+  Status accepts(const Emitter& emitter, const std::string& name) const;
+
+ private:
+  Answer by_reference(const Emitter& emitter, const PointRow& point) const;
+
+  bool lambert_ = true, fast_ = false;
+  const eval::DiffuseMethod* published_ = nullptr;
+  bool closed_ = true;  // closed forms where there are any
+  eval::Brdf brdf_;
+  double tolerance_ = 1e-4;
+};
+
+Result<Evaluator> Evaluator::of(const Options& o) {
+  Evaluator e;
+  if (o.alpha >= 0 && o.roughness >= 0) return usage("expected --alpha or --roughness, found both", "alpha is roughness squared");
+  const double roughness = o.roughness >= 0 ? o.roughness : o.alpha >= 0 ? std::sqrt(o.alpha) : 0.5;
+  const std::optional<Rgb> base = parse_rgb(o.base_colour);
+  if (!base) return usage(fmt::format("--base-colour: expected r,g,b, found '{}'", o.base_colour));
+  const std::optional<eval::Brdf> brdf = brdf_of(o, *base, roughness, o.masking == "separable" ? Masking::separable : Masking::correlated);
+  if (!brdf) return usage(fmt::format("--brdf: expected lambert, disney, frostbite, ggx, standard or principled, found '{}'", o.brdf));
+  e.brdf_ = *brdf;
+  e.tolerance_ = o.tolerance;
+  e.lambert_ = o.brdf == "lambert";
+  if (o.method == "exact" || o.method == "reference") {
+    e.closed_ = o.method == "exact";
+    return e;
+  }
+  if (!e.lambert_)
+    return usage(fmt::format("--method {}: expected exact or reference with --brdf {}", o.method, o.brdf), "others are for lambert alone");
+  if (o.method == "fast") {
+    e.fast_ = true;
+    return e;
+  }
+  e.published_ = eval::find_diffuse_method(o.method);
+  if (e.published_ != nullptr) return e;
+  std::string names;
+  for (const eval::DiffuseMethod& m : eval::diffuse_methods()) names += fmt::format("{}{}", names.empty() ? "" : ", ", m.name);
+  return usage(fmt::format("--method: expected exact, fast, reference or a published one, found '{}'", o.method), "published: " + names);
+}
+
+Status Evaluator::accepts(const Emitter& emitter, const std::string& name) const {
+  if (published_ == nullptr || published_->illuminance(emitter, {0, 0, 1}, {0, 1, 0})) return Done{};
+  return Error{"METHOD_UNSUPPORTED",
+               fmt::format("light '{}': expected a shape that {} takes", name, published_->name),
+               {},
+               "--lights chooses some",
+               {}};
+}
+
+Answer Evaluator::by_reference(const Emitter& emitter, const PointRow& p) const {
+  const Vec3d view = lambert_ ? p.normal : p.view;
+  // |error| <= X max(value, 1e-3 E L), E the cosine integral for a luminance of 1.
+  const double floor = has_closed_form(emitter) ? 1e-3 * largest(eval::illuminance(emitter, p.position, p.normal)) : 0;
+  const double scale = lambert_ ? pi : 1;
+  const eval::Estimate estimate =
+      eval::reference(emitter, {p.position, p.normal, p.normal, view, brdf_}, {tolerance_, tolerance_ * floor / scale});
+  return {estimate.value * scale, largest(estimate.error) * scale, "reference"};
+}
+
+Answer Evaluator::operator()(const Emitter& emitter, const PointRow& p) const {
+  if (published_ != nullptr) {
+    // What a published approximation is off by is measured here, against the closed form.
+    const std::optional<double> sr = published_->illuminance(emitter, p.position, p.normal);
+    const Rgb value = emitter.radiance * sr.value_or(0);
+    const Rgb exact = eval::illuminance(emitter, p.position, p.normal);
+    return {value, largest(value - exact) + rounding_of(emitter, exact), published_->name};
+  }
+  if (!lambert_ || !closed_ || !has_closed_form(emitter)) return by_reference(emitter, p);
+  const Rgb value = eval::illuminance(emitter, p.position, p.normal);
+  return {value, rounding_of(emitter, value), "exact"};
+}
+
+std::vector<Answer> Evaluator::operator()(const Emitter& emitter, std::span<const PointRow> points) const {
+  std::vector<Answer> answers;
+  answers.reserve(points.size());
+  const Result<eval::LightBatch> batch = eval::LightBatch::of(emitter);
+  if (!fast_ || !batch) {
+    for (const PointRow& p : points) answers.push_back((*this)(emitter, p));
+    return answers;
+  }
+  std::array<std::vector<float>, 6> c;
+  const Vec3d origin = points.front().position;
+  for (const PointRow& p : points) {
+    const Vec3d at = p.position - origin;
+    const std::array<double, 6> from{at.x, at.y, at.z, p.normal.x, p.normal.y, p.normal.z};
+    for (std::size_t k = 0; k < 6; ++k) c[k].push_back(static_cast<float>(from[k]));
+  }
+  std::vector<float> sr(points.size());
+  const BatchOutcome done =
+      batch->projected_solid_angles({c[0], c[1], c[2], c[3], c[4], c[5], origin}, sr, std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!done || !std::isfinite(sr[i])) {  // too far from the others for a float
+      answers.push_back((*this)(emitter, points[i]));
+      continue;
+    }
+    const Rgb value = emitter.radiance * static_cast<double>(sr[i]);
+    answers.push_back({value, 1e-5 * largest(value) + 2e-6 * largest(emitter.radiance), "fast"});
+  }
+  return answers;
+}
+
+int run_eval(const Common& common, const Options& options) {
+  Session session("eval", common);
+  const Result<Evaluator> evaluator = Evaluator::of(options);
+  if (!evaluator) return session.fail(evaluator.error());
+  Result<Imported> imported = read_asset(session, options.asset, options.import);
+  if (!imported) return session.fail(imported.error());
+  session.diagnostics.append(validate(imported->scene));
+  if (session.diagnostics.has_errors()) return session.finish(exit_bad_input);
+  const auto lit = lit_lights(imported->scene, options.lights, options.mute);
+  if (!lit) return session.fail(lit.error());
+  const auto emitters = emitters_of(imported->scene, *lit);
+  if (!emitters) return session.fail(emitters.error());
+  const auto name = [&](std::size_t i) -> const std::string& { return imported->scene.lights[(*lit)[i]].name; };
+  for (std::size_t i = 0; i < emitters->size(); ++i)
+    if (const Status ok = evaluator->accepts((*emitters)[i], name(i)); !ok) return session.fail(ok.error());
+
+  session.result = Json::array();
+  std::uint64_t points = 0;
+  std::string rows = "index,light,r,g,b,bound,method\n";
+  const auto tell = [&](std::uint64_t index, const std::string& light, const Answer& a) {
+    if (common.json) {
+      session.result.push_back({{"index", index},
+                                {"light", light},
+                                {"r", a.value.x},
+                                {"g", a.value.y},
+                                {"b", a.value.z},
+                                {"bound", a.bound},
+                                {"method", a.method}});
+      return;
+    }
+    fmt::format_to(std::back_inserter(rows), "{},", index);
+    append_field(rows, light);
+    fmt::format_to(std::back_inserter(rows), ",{},{},{},{},{}\n", a.value.x, a.value.y, a.value.z, a.bound, a.method);
+  };
+  const Status read = each_block(options.points, evaluator->wants_view(), [&](std::span<const PointRow> block) -> Status {
+    if (interrupted()) return Error{"CANCELLED", "stopped", {}, {}, {}};
+    std::vector<std::vector<Answer>> by_light;
+    by_light.reserve(emitters->size());
+    for (const Emitter& emitter : *emitters) by_light.push_back((*evaluator)(emitter, block));
+    for (std::size_t p = 0; p < block.size(); ++p) {
+      Answer all{{}, 0, "sum"};
+      for (std::size_t i = 0; i < by_light.size(); ++i) {
+        const Answer& one = by_light[i][p];
+        all.value += one.value;
+        all.bound += one.bound;
+        if (!options.sum) tell(points + p, name(i), one);
+      }
+      if (options.sum) tell(points + p, "all", all);
+    }
+    points += block.size();
+    if (!common.json && (std::fwrite(rows.data(), 1, rows.size(), stdout) != rows.size() || std::fflush(stdout) != 0))
+      return Error{"FILE_UNWRITABLE", "the output cannot be written", {}, {}, {}};
+    rows.clear();
+    return Done{};
+  });
+  session.stats["points"] = points;
+  session.stats["evaluations"] = points * emitters->size();
+  if (!read) return session.fail(read.error());
+  return session.finish(exit_done);
+}
+
+}  // namespace
+
+void add_eval(CLI::App& app, const Common& common, Run& run) {
+  CLI::App* const verb = app.add_subcommand("eval", "The light of a rig at points, light by light, with a bound of its error");
+  auto options = std::make_shared<Options>();
+  verb->add_option("RIG", options->asset, "A light rig or glTF file")->required();
+  verb->add_option("--points", options->points, "CSV: px,py,pz,nx,ny,nz, and vx,vy,vz towards the eye but for lambert; metres; - is stdin")
+      ->required();
+  verb->add_option("--brdf", options->brdf, "lambert (gives lux), or cd/m2 towards the eye: disney, frostbite, ggx, standard, principled")
+      ->capture_default_str();
+  verb->add_option("--alpha", options->alpha, "Of GGX: roughness squared")->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--roughness", options->roughness, "Perceptually linear (default 0.5)")->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--f0", options->f0, "Reflectance at normal incidence")->capture_default_str()->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--f90", options->f90, "Of ggx: reflectance at grazing incidence")->capture_default_str()->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--masking", options->masking, "Of ggx: correlated or separable")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"correlated", "separable"}));
+  verb->add_option("--base-colour", options->base_colour, "r,g,b, linear")->capture_default_str();
+  verb->add_option("--method", options->method, "exact, fast (floats; lambert), reference, or a published method's name (lambert)")
+      ->capture_default_str();
+  verb->add_option("--tolerance", options->tolerance, "Where nothing is exact: error at most this part of the value")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-9, 0.1));
+  verb->add_flag("--sum", options->sum, "One row a point: all lights together");
+  verb->add_option("--lights", options->lights, "Only these lights, by name: a,b");
+  verb->add_option("--mute", options->mute, "All but these lights");
+  add_limits(*verb, options->import);
+  verb->footer(
+      "\nNothing stands in the light's way: shadows are render's.\n"
+      "\nExamples:\n"
+      "  echo 0,0,0,0,1,0 | etendue eval kitchen.rig.json --points - --sum\n"
+      "  etendue eval studio.rig.json --points floor.csv --brdf ggx --alpha 0.1 --tolerance 1e-3\n"
+      "  etendue eval studio.rig.json --points floor.csv --lights key --method frostbite-12");
+  verb->callback([&common, &run, options] { run = [&common, options] { return run_eval(common, *options); }; });
+}
+
+}  // namespace etendue::cli

@@ -1,0 +1,58 @@
+#include "emitters.h"
+
+#include "etendue/render.h"
+
+#include <utility>
+
+namespace etendue {
+namespace rendering {
+
+Result<eval::Emitter> emitter_in(const Scene& scene, const Light& light, const TextureSource& texture) {
+  eval::EmitterParts parts;
+  if (const auto* shape = std::get_if<MeshShape>(&light.shape)) {
+    const Mesh& mesh = scene.meshes[shape->mesh];
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      const auto corner = [&](std::size_t k) { return vec_cast<double>(mesh.positions[mesh.indices[i + k]]); };
+      parts.triangles.push_back({corner(0), corner(1), corner(2)});
+      if (!light.emission.texture || mesh.uvs.empty()) continue;
+      const auto uv = [&](std::size_t k) { return Vec2d{mesh.uvs[mesh.indices[i + k]].x, mesh.uvs[mesh.indices[i + k]].y}; };
+      parts.uvs.push_back({uv(0), uv(1), uv(2)});
+    }
+  }
+  const auto* environment = std::get_if<EnvironmentShape>(&light.shape);
+  if (environment != nullptr && environment->image) {
+    Result<DecodedImage> decoded = decode(scene.images[*environment->image], Encoding::linear);
+    if (!decoded) return decoded.error();
+    std::vector<Vec3f> pixels(std::size_t{decoded->width} * decoded->height);
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = {decoded->rgba[4 * i], decoded->rgba[4 * i + 1], decoded->rgba[4 * i + 2]};
+    parts.environment = eval::make_environment(decoded->width, decoded->height, std::move(pixels));
+  }
+  if (light.emission.texture) {
+    Result<std::shared_ptr<const DecodedImage>> decoded = texture(*light.emission.texture);
+    if (!decoded) return decoded.error();
+    parts.pattern = [pixels = std::move(*decoded), where = *light.emission.texture](Vec2d uv) {
+      const Rgba texel = sample(*pixels, where, uv);
+      return Rgb{texel.r, texel.g, texel.b};
+    };
+  }
+  return eval::emitter_of(light, parts);
+}
+
+}  // namespace rendering
+
+Result<std::vector<eval::Emitter>> emitters_of(const Scene& scene, std::span<const std::uint32_t> lights) {
+  std::vector<eval::Emitter> emitters;
+  for (const std::uint32_t light : lights) {
+    Result<eval::Emitter> emitter =
+        rendering::emitter_in(scene, scene.lights[light], [&](const Texture& texture) -> Result<std::shared_ptr<const DecodedImage>> {
+          Result<DecodedImage> decoded = decode(scene.images[texture.image], texture.encoding);
+          if (!decoded) return decoded.error();
+          return std::make_shared<const DecodedImage>(std::move(*decoded));
+        });
+    if (!emitter) return emitter.error();
+    emitters.push_back(std::move(*emitter));
+  }
+  return emitters;
+}
+
+}  // namespace etendue
