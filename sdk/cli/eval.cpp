@@ -46,15 +46,6 @@ Error usage(std::string text, std::string hint = {}) { return {"USAGE", std::mov
 // Rounding of a closed form in double: 1e-12 for a luminance of 1 (tests/unit/illuminance_property_test.cpp), and of the value.
 double rounding_of(const Emitter& emitter, const Rgb& value) { return 1e-12 * (largest(value) + largest(emitter.radiance)); }
 
-// Whether illuminance() has a closed form (eval.h).
-bool has_closed_form(const Emitter& emitter) {
-  const bool punctual =
-      std::holds_alternative<eval::PunctualEmitter>(emitter.shape) || std::holds_alternative<eval::DistantEmitter>(emitter.shape);
-  const auto* environment = std::get_if<eval::EnvironmentEmitter>(&emitter.shape);
-  const bool windowed = !punctual && emitter.window.falloff != Falloff::inverse_square && emitter.window.range_m > 0;
-  return !emitter.pattern && !windowed && (environment == nullptr || !environment->map);
-}
-
 std::optional<eval::Brdf> brdf_of(const Options& o, const Rgb& base, double roughness, Masking masking) {
   if (o.brdf == "lambert") return Lambert{{1, 1, 1}};
   if (o.brdf == "disney") return eval::DisneyDiffuse{base, roughness};

@@ -83,7 +83,7 @@ Status each_block(const std::string& file, bool with_view, const std::function<S
     if (!row) return row.error();
     rows.push_back(*row);
     if (rows.size() < block) continue;
-    if (const Status done = take(rows); !done) return done;
+    if (Status done = take(rows); !done) return done;
     rows.clear();
   }
   if (in.bad()) return Error{"FILE_UNREADABLE", "the points cannot be read", {name, 0, 0, {}}, {}, {}};

@@ -174,6 +174,8 @@ Estimate reference(const Emitter& emitter, const ShadingPoint& point, const Tole
 // map; `reference` with a white Lambert surface for those. Not below the horizon of `normal`.
 // The inside of a sphere, tube or disk's back is dark unless the light is two-sided. From within the plane of a flat light it is not seen.
 Rgb illuminance(const Emitter& emitter, const Vec3d& position, const Vec3d& normal);
+// Whether it is one that has a closed form.
+bool has_closed_form(const Emitter& emitter);
 
 // ---- Sampling, for visibility ----
 

@@ -93,12 +93,16 @@ struct ClosedForm {
 
 }  // namespace
 
-std::optional<Rgb> closed_illuminance(const Emitter& emitter, const Vec3d& position, const LocalFrame& frame, const Horizons& horizons) {
-  if (emitter.pattern) return std::nullopt;
+bool has_closed_form(const Emitter& emitter) {
+  if (emitter.pattern) return false;
   const bool punctual = std::holds_alternative<PunctualEmitter>(emitter.shape) || std::holds_alternative<DistantEmitter>(emitter.shape);
-  if (!punctual && emitter.window.falloff != Falloff::inverse_square && emitter.window.range_m > 0) return std::nullopt;
+  if (!punctual && emitter.window.falloff != Falloff::inverse_square && emitter.window.range_m > 0) return false;
   const auto* environment = std::get_if<EnvironmentEmitter>(&emitter.shape);
-  if (environment != nullptr && environment->map) return std::nullopt;
+  return environment == nullptr || !environment->map;
+}
+
+std::optional<Rgb> closed_illuminance(const Emitter& emitter, const Vec3d& position, const LocalFrame& frame, const Horizons& horizons) {
+  if (!has_closed_form(emitter)) return std::nullopt;
   return std::visit(ClosedForm{emitter, position, frame, horizons}, emitter.shape);
 }
 
