@@ -211,6 +211,7 @@ void rows(Bench& bench, const char* size, const Data& d) {
   });
   limit_of(vectors, "etendue, batch of floats", 20);
   limit_over(vectors, "acos, atan2, bisection, bilinear", "etendue, batch of floats", 3, true);
+  limit_over(vectors, "acos, atan2, bisection, bilinear", "etendue", 3, true);
   static std::list<WebSampler> samplers;
   const WebSampler* const sampler = &samplers.emplace_back(d.web);
   Task& sampling = bench.task(fmt::format("sample {}", size), n);
@@ -242,6 +243,7 @@ void rows(Bench& bench, const char* size, const Data& d) {
   });
   limit_of(sampling, "etendue, batch", 60);
   limit_over(sampling, "rejection, acos, atan2, bilinear", "etendue, batch", 3, true);
+  limit_over(sampling, "rejection, acos, atan2, bilinear", "etendue", 3, true);
 }
 
 }  // namespace
