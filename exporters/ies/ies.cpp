@@ -188,11 +188,13 @@ void note_required(const IesRecord& ies, LossReport& losses) {
   }
 }
 
-bool looks_like_version(const std::string& label) {
+// At the beginning of a file this label would be taken for a version line, or lose a byte order mark.
+bool must_not_be_first(const std::string& label) {
+  constexpr const char* mark = "\xEF\xBB\xBF";
   std::string start;
   for (const char c : label)
     if (c != ' ' && c != '\t' && start.size() < 3) start += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return start == "IES";
+  return start == "IES" || start == mark;
 }
 
 std::string text_of(const IesRecord& ies, const IntensityGrid& grid) {
@@ -200,8 +202,8 @@ std::string text_of(const IesRecord& ies, const IntensityGrid& grid) {
   const std::string first = ies.keywords.empty() ? "" : one_line(ies.keywords.front().text);
   if (ies.version != IesVersion::lm_63_1986) {
     text += std::string(tags[static_cast<int>(ies.version)]) + eol;
-  } else if (looks_like_version(first)) {
-    text += eol;  // 1986 has no version line: a blank one keeps the first label from being taken for one
+  } else if (must_not_be_first(first)) {
+    text += eol;  // 1986 has no version line: a blank one stands in its place
   }
   for (const Keyword& k : ies.keywords) text += one_line(k.name.empty() ? k.text : fmt::format("[{}] {}", k.name, k.text)) + eol;
   if (!ies.tilt) {

@@ -57,7 +57,9 @@ bool Reader::read_version(IesRecord& record) {
   const std::string_view line = photometric::take_line(p, numbers_.end());
   const std::size_t bracket = std::min(line.find('['), line.size());
   const std::string_view written = line.substr(0, bracket);
-  const std::string tag = squeezed(written);
+  std::string tag = squeezed(written);
+  while (tag.starts_with(photometric::byte_order_mark))
+    tag.erase(0, photometric::byte_order_mark.size());  // behind blanks, or a second one
   if (!tag.starts_with("IESNA") && !tag.starts_with("IES:")) {
     record.version = IesVersion::lm_63_1986;
     return true;

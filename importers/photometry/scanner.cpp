@@ -201,9 +201,9 @@ Result<std::string_view> decode(std::span<const std::byte> bytes, const std::str
     return Error{code, std::move(what), {file, line, column, {}}, hint, {}};
   };
   if (text.empty()) return fail("FILE_EMPTY", "expected a photometric file, found no bytes", 0, "the file may not have been downloaded");
-  if (text.starts_with("\xEF\xBB\xBF")) {
+  if (text.starts_with(byte_order_mark)) {
     diagnostics.note("BYTE_ORDER_MARK", "a byte order mark was skipped", {file, 1, 1, {}});
-    text.remove_prefix(3);
+    text.remove_prefix(byte_order_mark.size());
   } else if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     if (!utf16_to_utf8(text.substr(2), text[0] == '\xFF', storage))
       return fail("ENCODING_INVALID", "expected UTF-16 behind its byte order mark, found bytes that are none", 0, "save it as plain text");

@@ -17,6 +17,8 @@ inline std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (is_blank(text.back()) || is_eol(text.back()))) text.remove_suffix(1);
   return text;
 }
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // of UTF-8
+
 // ASCII in upper case, without blanks.
 std::string squeezed(std::string_view text);
 // Valid UTF-8 as it is, anything else read as Latin-1.

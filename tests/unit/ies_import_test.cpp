@@ -62,6 +62,7 @@ TEST(IesImport, MalformationsAreRepairedAndNamedOrRefusedWhenStrict) {
   } cases[] = {
       {"VERSION_TAG_VARIANT", replaced(clean, "IESNA:LM", "IESNA: LM")},
       {"VERSION_TAG_VARIANT", replaced(clean, "IESNA:LM-63-2002", "IESNA:LM-63-02")},
+      {"VERSION_TAG_VARIANT", " \xEF\xBB\xBF" + clean},
       {"VERSION_UNKNOWN", replaced(clean, "IESNA:LM-63-2002", "IESNA:LM-63-1066")},
       {"VERSION_SHARES_LINE", replaced(clean, "2002\r\n", "2002")},
       {"VERSION_MISSING", replaced(clean, "IESNA:LM-63-2002\r\n", "")},

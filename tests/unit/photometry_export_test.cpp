@@ -87,6 +87,26 @@ TEST(PhotometryExport, IesComesBackToTheLastBitInEveryVersion) {
   }
 }
 
+TEST(PhotometryExport, AFirstLabelOf1986IsNotTakenForItsVersion) {
+  const std::string mark = "\xEF\xBB\xBF";
+  for (const std::string& label :
+       {std::string("IESNA:LM-63-1995"), std::string(" ies of a lamp"), mark + "IESNA:LM-63-1995", mark + "lamp"}) {
+    IntensityDistribution d = distribution_of(WebType::c, WebSymmetry::rotational, steps(0, 90, 15), {0}, wild);
+    auto& ies = std::get<IesRecord>(d.record);
+    ies.version = IesVersion::lm_63_1986;
+    ies.third_factor = 5;  // multiplies in 1986 and 1991 alone
+    ies.keywords = {{"", label}};
+    PhotometricWriteOptions options;
+    options.version = ies.version;
+    const auto text = write_ies(d, options);
+    ASSERT_TRUE(text);
+    const IntensityDistribution again = read_back(*text, true);
+    EXPECT_EQ(std::get<IesRecord>(again.record).version, IesVersion::lm_63_1986) << label;
+    EXPECT_EQ(std::get<IesRecord>(again.record).keywords.back().text, label.substr(label.find_first_not_of(' ')));
+    EXPECT_EQ(candelas_per_value(again), candelas_per_value(d)) << label;
+  }
+}
+
 TEST(PhotometryExport, EulumdatComesBackToTheLastBit) {
   const struct {
     int code;
