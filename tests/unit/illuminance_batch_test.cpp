@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <vector>
 
@@ -88,8 +87,6 @@ TEST(IlluminanceBatch, IsWithinItsBoundAboveAndAcrossTheHorizon) {
         }
         EXPECT_LE(worst.ratio, 1) << static_cast<int>(kind) << above;
         EXPECT_LE(worst.mean(), 4e-6) << static_cast<int>(kind) << above;
-        std::printf("%s %s: mean relative %.1e, of the bound %.2f\n", kind == Kind::sphere ? "sphere" : "rect", above ? "above" : "across",
-                    worst.mean(), worst.ratio);
       }
     }
   });
@@ -120,7 +117,6 @@ TEST(IlluminanceBatch, PolygonsOfAnyShapeAtPointsAllAround) {
       for (int k = 0; k < 37; ++k) points.add(random.direction() * random.uniform(0, 3), random.direction());
       worst.judge(light, points, evaluated(light, points));
     }
-    std::printf("stars: of the bound %.2f\n", worst.ratio);
     EXPECT_LE(worst.ratio, 1);
   });
 }
@@ -148,7 +144,6 @@ TEST(IlluminanceBatch, HoldsAtEveryScale) {
         }
         worst.judge(light, points, evaluated(light, points));
       }
-      std::printf("%s at every scale: of the bound %.2f\n", kind == Kind::sphere ? "sphere" : "rect", worst.ratio);
       EXPECT_LE(worst.ratio, 1) << static_cast<int>(kind);
     }
   });

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 
 namespace etendue::eval {
 
@@ -24,17 +25,16 @@ class LightBatch {
 
   // The integral of max(n.l, 0) over the directions of the light (sr): times Emitter::radiance it is illuminance() of the same points.
   // Spheres and polygons, convex or not, run in vectors with
-  //     |error| <= 1e-5 value + 2e-6 min(1, solid angle of the light);
-  // disks, tubes and meshes are evaluated one by one, in double. Points with a number that is not finite become `where_none`, and are
-  // counted. Errors: BATCH_SIZES_DIFFER.
+  //     |error| <= 1e-5 value + 2e-6 min(1, solid angle of the light),
+  // of doubles where those of floats would not hold it; disks, tubes and meshes are evaluated one by one. Points with a number that is not
+  // finite become `where_none`, and are counted. Errors: BATCH_SIZES_DIFFER.
   BatchOutcome projected_solid_angles(const PointBatch& points, std::span<float> sr, float where_none) const;
 
-  struct Polygon;  // places of quadrature over its area
+  class Shape;  // sdk/src/eval/light_batch.h
 
  private:
-  explicit LightBatch(const Emitter& emitter);
-  Emitter white_;  // of luminance 1
-  std::shared_ptr<const Polygon> polygon_;
+  explicit LightBatch(std::shared_ptr<const Shape> shape) : shape_(std::move(shape)) {}
+  std::shared_ptr<const Shape> shape_;
 };
 
 }  // namespace etendue::eval

@@ -1,0 +1,220 @@
+// What the kernels of light_batch.h share, once for each instruction set: include it after HWY_TARGET_INCLUDE and hwy/foreach_target.h.
+#if defined(ETENDUE_LIGHT_BATCH_INL_H) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard, once an instruction set
+#ifdef ETENDUE_LIGHT_BATCH_INL_H
+#undef ETENDUE_LIGHT_BATCH_INL_H
+#else
+#define ETENDUE_LIGHT_BATCH_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+
+#include "eval/light_batch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace etendue::eval::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class V>
+struct Vector {
+  V x, y, z;
+};
+template <class V>
+HWY_INLINE V dot(const Vector<V>& a, const Vector<V>& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+template <class V>
+HWY_INLINE Vector<V> cross(const Vector<V>& a, const Vector<V>& b) {
+  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)), hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+}
+template <class V>
+HWY_INLINE Vector<V> operator-(const Vector<V>& a, const Vector<V>& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+// a + (b - a) t
+template <class V>
+HWY_INLINE Vector<V> between(const Vector<V>& a, const Vector<V>& b, V t) {
+  return {hn::MulAdd(hn::Sub(b.x, a.x), t, a.x), hn::MulAdd(hn::Sub(b.y, a.y), t, a.y), hn::MulAdd(hn::Sub(b.z, a.z), t, a.z)};
+}
+template <class M, class V>
+HWY_INLINE Vector<V> chosen(M mask, const Vector<V>& yes, const Vector<V>& no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
+}
+
+template <class D>
+constexpr bool in_floats = std::is_same_v<hn::TFromD<D>, float>;
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V number(D d, double x) {
+  return hn::Set(d, static_cast<hn::TFromD<D>>(x));
+}
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vector<V> numbers(D d, const Vec3d& v) {
+  return {number(d, v.x), number(d, v.y), number(d, v.z)};
+}
+
+// c0 + c1 x + c2 x^2 + ...
+template <class D, std::size_t N, class V = hn::Vec<D>>
+HWY_INLINE V polynomial(D d, V x, const std::array<double, N>& c) {
+  V p = number(d, c[N - 1]);
+  for (std::size_t i = N - 1; i-- > 0;) p = hn::MulAdd(p, x, number(d, c[i]));
+  return p;
+}
+
+// (atan(q) / q - 1) / q^2 as a polynomial in z = q^2, q <= tan(22.5 deg), such that atan(q) has a relative error below 1.3e-9 in floats,
+// and of the series' 18 terms (below 1e-15) in doubles.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V atan_rest(D d, V z) {
+  if constexpr (in_floats<D>) {
+    return polynomial(d, z, std::array{-0.33333308, 0.19998182, -0.14239533, 0.10569829, -0.060263049});
+  } else {
+    constexpr auto series = [] {
+      std::array<double, 18> c{};
+      for (std::size_t i = 0; i < c.size(); ++i) c[i] = (i % 2 == 0 ? -1.0 : 1.0) / static_cast<double>(2 * i + 3);
+      return c;
+    }();
+    return polynomial(d, z, series);
+  }
+}
+
+// The angle of (x, y), y >= 0: 0 to pi, with a relative error of a few roundings; 0 for (0, 0).
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V angle_of(D d, V y, V x) {
+  const V ax = hn::Abs(x), longer = hn::Max(ax, y), shorter = hn::Min(ax, y), zero = hn::Zero(d);
+  const auto far = hn::Gt(shorter, hn::Mul(number(d, 0.41421356237309503), longer));
+  const V numerator = hn::Sub(shorter, hn::IfThenElseZero(far, longer)), denominator = hn::Add(longer, hn::IfThenElseZero(far, shorter));
+  const V q = hn::IfThenElseZero(hn::Gt(denominator, zero), hn::Div(numerator, denominator)), z = hn::Mul(q, q);
+  const V octant = hn::Add(hn::MulAdd(hn::Mul(atan_rest(d, z), z), q, q), hn::IfThenElseZero(far, number(d, pi / 4)));
+  const V quadrant = hn::IfThenElse(hn::Gt(y, ax), hn::Sub(number(d, pi / 2), octant), octant);
+  return hn::IfThenElse(hn::Lt(x, zero), hn::Sub(number(d, pi), quadrant), quadrant);
+}
+
+template <class V>
+struct Point {
+  Vector<V> position, normal;  // in the light's unit; of length 1
+};
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V away(D d, const Coordinate& c, V p) {
+  if constexpr (in_floats<D>)
+    return hn::Add(hn::Sub(hn::Set(d, c.high), p), hn::Set(d, c.low));
+  else
+    return hn::Sub(hn::Set(d, c.whole), p);
+}
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vector<V> towards(D d, const Place& place, const Vector<V>& position) {
+  return {away(d, place.x, position.x), away(d, place.y, position.y), away(d, place.z, position.z)};
+}
+
+// Coordinates whose squares are out of range are infinitely far: no light.
+template <class D, class V>
+HWY_INLINE V sane(D d, V value) {
+  return hn::IfThenElseZero(hn::Lt(value, number(d, 4)), value);
+}
+
+// Points that floats are not enough for: kept until there are some, then evaluated in vectors of doubles, and what those refuse one by one.
+template <class Kernel>
+class Doubtful {
+ public:
+  Doubtful(const Emitter& white, const PointBatch& points, double scale, std::span<float> out, Kernel kernel)
+      : white_(white), points_(points), scale_(scale), out_(out), kernel_(kernel) {}
+  // The point of each lane below `number` that is marked. Writes no results of these.
+  template <class D, class M>
+  HWY_INLINE void add(D d, M marked, std::size_t first, std::size_t number) {
+    if (count_ + hn::Lanes(d) > most) evaluate();
+    HWY_ALIGN std::array<float, hn::MaxLanes(D())> is_marked;
+    hn::Store(hn::IfThenElseZero(marked, hn::Set(d, 1.0f)), d, is_marked.data());
+    for (std::size_t k = 0; k < number; ++k)
+      if (is_marked[k] != 0) index_[count_++] = first + k;
+  }
+  void evaluate() {
+    const hn::ScalableTag<double> d;
+    using V = hn::Vec<decltype(d)>;
+    const std::size_t lanes = hn::Lanes(d);
+    const std::array<const float*, 6> in{points_.px.data(), points_.py.data(), points_.pz.data(),
+                                         points_.nx.data(), points_.ny.data(), points_.nz.data()};
+    HWY_ALIGN std::array<std::array<double, hn::MaxLanes(d)>, 6> at;
+    HWY_ALIGN std::array<double, hn::MaxLanes(d)> values, is_marked;
+    for (std::size_t i = 0; i < count_; i += lanes) {
+      for (std::size_t c = 0; c < 6; ++c)
+        for (std::size_t k = 0; k < lanes; ++k) at[c][k] = static_cast<double>(in[c][index_[std::min(i + k, count_ - 1)]]);
+      const auto part = [&](std::size_t c) { return hn::Load(d, at[c].data()); };
+      Vector<V> normal{part(3), part(4), part(5)};
+      // A float's rounding of the normal's length counts where the terms cancel.
+      const V inverse = hn::Div(hn::Set(d, 1.0), hn::Sqrt(dot(normal, normal)));
+      normal = {hn::Mul(normal.x, inverse), hn::Mul(normal.y, inverse), hn::Mul(normal.z, inverse)};
+      const V unit = hn::Set(d, scale_);
+      auto marked = hn::FirstN(d, 0);
+      const V value = kernel_(d, Point<V>{{hn::Mul(part(0), unit), hn::Mul(part(1), unit), hn::Mul(part(2), unit)}, normal}, marked);
+      hn::Store(sane(d, value), d, values.data());
+      hn::Store(hn::IfThenElseZero(marked, hn::Set(d, 1.0)), d, is_marked.data());
+      for (std::size_t k = 0; k < lanes && i + k < count_; ++k) {
+        const std::size_t to = index_[i + k];
+        out_[to] = is_marked[k] != 0 ? in_double(white_, points_, to) : static_cast<float>(values[k]);
+      }
+    }
+    count_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t most = 128;
+  std::array<std::size_t, most> index_;
+  std::size_t count_ = 0;
+  const Emitter& white_;
+  const PointBatch& points_;
+  double scale_;
+  std::span<float> out_;
+  Kernel kernel_;
+};
+
+// kernel(d, point, mask&) gives the projected solid angle of every lane, in floats and in doubles, and marks the lanes that it refuses.
+// `scale`: the light's units a metre. How many points are not finite; they become `where_none`.
+template <class Kernel>
+HWY_INLINE std::size_t at_every_point(const Emitter& white, double scale, const PointBatch& points, std::span<float> out, float where_none,
+                                      Kernel kernel) {
+  const hn::ScalableTag<float> d;
+  using V = hn::Vec<decltype(d)>;
+  const std::size_t lanes = hn::Lanes(d), count = out.size();
+  std::size_t without = 0;
+  Doubtful<Kernel> doubtful(white, points, scale, out, kernel);
+  const auto over = [&](const std::array<const float*, 6>& in, std::size_t first, std::size_t number, float* to) {
+    const V x = hn::LoadU(d, in[0]), y = hn::LoadU(d, in[1]), z = hn::LoadU(d, in[2]);
+    const Vector<V> normal{hn::LoadU(d, in[3]), hn::LoadU(d, in[4]), hn::LoadU(d, in[5])};
+    const auto finite = [&](V a, V b, V c) { return hn::And(hn::IsFinite(a), hn::And(hn::IsFinite(b), hn::IsFinite(c))); };
+    const auto valid = hn::And(finite(x, y, z), finite(normal.x, normal.y, normal.z));
+    const V unit = hn::Set(d, static_cast<float>(scale));
+    auto marked = hn::FirstN(d, 0);
+    const V value = kernel(d, Point<V>{{hn::Mul(x, unit), hn::Mul(y, unit), hn::Mul(z, unit)}, normal}, marked);
+    hn::StoreU(hn::IfThenElse(valid, sane(d, value), hn::Set(d, where_none)), d, to);
+    without += lanes - hn::CountTrue(d, valid);
+    marked = hn::And(marked, valid);
+    if (HWY_UNLIKELY(!hn::AllFalse(d, marked))) doubtful.add(d, marked, first, number);
+  };
+  const std::array<const float*, 6> all{points.px.data(), points.py.data(), points.pz.data(),
+                                        points.nx.data(), points.ny.data(), points.nz.data()};
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    std::array<const float*, 6> in = all;
+    for (const float*& p : in) p += i;
+    over(in, i, lanes, out.data() + i);
+  }
+  if (i < count) {
+    HWY_ALIGN std::array<std::array<float, hn::MaxLanes(d)>, 7> last;
+    std::array<const float*, 6> in = all;
+    for (std::size_t k = 0; k < 6; ++k) {
+      std::fill_n(last[k].begin(), lanes, 1.0f);
+      std::copy(all[k] + i, all[k] + count, last[k].begin());
+      in[k] = last[k].data();
+    }
+    over(in, i, count - i, last[6].data());
+    std::copy_n(last[6].begin(), count - i, out.data() + i);
+  }
+  doubtful.evaluate();
+  return without;
+}
+
+}  // namespace etendue::eval::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
