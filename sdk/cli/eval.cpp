@@ -46,10 +46,21 @@ Error usage(std::string text, std::string hint = {}) { return {"USAGE", std::mov
 // Rounding of a closed form in double: 1e-12 for a luminance of 1 (tests/unit/illuminance_property_test.cpp), and of the value.
 double rounding_of(const Emitter& emitter, const Rgb& value) { return 1e-12 * (largest(value) + largest(emitter.radiance)); }
 
+constexpr std::string_view brdf_names = "lambert, disney, frostbite, gltf-diffuse, oren-nayar, gotanda, ggx, standard or principled";
+
+// Reflectance at normal incidence is ((n - 1) / (n + 1))^2.
+double ior_of(double f0) {
+  const double root = std::sqrt(std::min(f0, 0.999999));
+  return (1 + root) / (1 - root);
+}
+
 std::optional<eval::Brdf> brdf_of(const Options& o, const Rgb& base, double roughness, Masking masking) {
   if (o.brdf == "lambert") return Lambert{{1, 1, 1}};
   if (o.brdf == "disney") return eval::DisneyDiffuse{base, roughness};
   if (o.brdf == "frostbite") return eval::FrostbiteDiffuse{base, roughness};
+  if (o.brdf == "gltf-diffuse") return eval::GltfDiffuse{base, ior_of(o.f0)};
+  if (o.brdf == "oren-nayar") return eval::OrenNayar{base, eval::oren_nayar_sigma_rad(roughness * roughness)};
+  if (o.brdf == "gotanda") return eval::GotandaDiffuse{base, roughness, o.f0};
   if (o.brdf == "ggx") return eval::GgxLobe{roughness * roughness, {o.f0, o.f0, o.f0}, o.f90, masking};
   if (o.brdf == "standard") return Standard{base, 0, roughness, std::sqrt(o.f0 / 0.16)};
   if (o.brdf == "principled") return Principled{base, 0, roughness, o.f0 / 0.08};
@@ -85,7 +96,7 @@ Result<Evaluator> Evaluator::of(const Options& o) {
   const std::optional<Rgb> base = parse_rgb(o.base_colour);
   if (!base) return usage(fmt::format("--base-colour: expected r,g,b, found '{}'", o.base_colour));
   const std::optional<eval::Brdf> brdf = brdf_of(o, *base, roughness, o.masking == "separable" ? Masking::separable : Masking::correlated);
-  if (!brdf) return usage(fmt::format("--brdf: expected lambert, disney, frostbite, ggx, standard or principled, found '{}'", o.brdf));
+  if (!brdf) return usage(fmt::format("--brdf: expected {}, found '{}'", brdf_names, o.brdf));
   e.brdf_ = *brdf;
   e.tolerance_ = o.tolerance;
   e.lambert_ = o.brdf == "lambert";
@@ -236,9 +247,9 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("RIG", options->asset, "A light rig or glTF file")->required();
   verb->add_option("--points", options->points, "CSV: px,py,pz,nx,ny,nz, and vx,vy,vz towards the eye but for lambert; metres; - is stdin")
       ->required();
-  verb->add_option("--brdf", options->brdf, "lambert (gives lux), or cd/m2 towards the eye: disney, frostbite, ggx, standard, principled")
+  verb->add_option("--brdf", options->brdf, fmt::format("{}; lambert gives lux, the others cd/m2 towards the eye", brdf_names))
       ->capture_default_str();
-  verb->add_option("--alpha", options->alpha, "Of GGX: roughness squared")->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--alpha", options->alpha, "Roughness squared")->check(CLI::Range(0.0, 1.0));
   verb->add_option("--roughness", options->roughness, "Perceptually linear (default 0.5)")->check(CLI::Range(0.0, 1.0));
   verb->add_option("--f0", options->f0, "Reflectance at normal incidence")->capture_default_str()->check(CLI::Range(0.0, 1.0));
   verb->add_option("--f90", options->f90, "Of ggx: reflectance at grazing incidence")->capture_default_str()->check(CLI::Range(0.0, 1.0));

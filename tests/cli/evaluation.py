@@ -39,7 +39,7 @@ def main():
     exact = rows(etendue)
     good = [agree("fast", exact, rows(etendue, "--method", "fast")), agree("reference", exact, rows(etendue, "--method", "reference"))]
     good.append(max(float(r["bound"]) for r in exact) < 1e-6 < max(float(r["r"]) for r in exact))
-    for brdf in ("disney", "frostbite", "ggx", "standard", "principled"):
+    for brdf in ("disney", "frostbite", "gltf-diffuse", "oren-nayar", "gotanda", "ggx", "standard", "principled"):
         loose, tight = (rows(etendue, "--brdf", brdf, "--roughness", "0.3", "--tolerance", t) for t in ("1e-2", "1e-7"))
         good.append(agree(brdf, loose, tight))
         good.append(any(float(r["g"]) > 0 for r in tight))

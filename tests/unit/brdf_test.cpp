@@ -87,10 +87,13 @@ std::vector<Brdf> every_model(double alpha) {
           DisneyDiffuse{{0.8, 0.5, 0.2}, roughness},
           FrostbiteDiffuse{{0.8, 0.5, 0.2}, roughness},
           GgxLobe{alpha, {0.04, 0.5, 1}, 1, Masking::correlated},
-          TwoColour{{0.5, 0.3, 0.1}, {0.1, 0.3, 0.5}, roughness}};
+          TwoColour{{0.5, 0.3, 0.1}, {0.1, 0.3, 0.5}, roughness},
+          GltfDiffuse{{0.8, 0.5, 0.2}, 1.5},
+          OrenNayar{{0.8, 0.5, 0.2}, oren_nayar_sigma_rad(alpha)},
+          GotandaDiffuse{{0.8, 0.5, 0.2}, roughness, 0.04}};
 }
 
-// f(v, l) = f(l, v), so BRDF x cosine over the cosine is symmetric. All models here are reciprocal.
+// f(v, l) = f(l, v), so BRDF x cosine over the cosine is symmetric: of all models but Gotanda's fit.
 TEST(Brdf, IsReciprocal) {
   Random random(1);
   for (int i = 0; i < 300; ++i) {
@@ -101,6 +104,7 @@ TEST(Brdf, IsReciprocal) {
     l = normalised(l);
     for (const Brdf& brdf : every_model(random.log_uniform(0.01, 1))) {
       const Rgb there = brdf_cos(brdf, v, l) / l.z, back = brdf_cos(brdf, l, v) / v.z;
+      if (std::holds_alternative<GotandaDiffuse>(brdf)) continue;
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(there[c], back[c], 1e-12 * there[c] + 1e-15) << brdf.index();
     }
   }

@@ -31,6 +31,25 @@ struct FrostbiteDiffuse {
   Rgb base_colour{1, 1, 1};
   double roughness = 0.5;
 };
+// glTF 2.0's (appendix B): base colour / pi times what Schlick's Fresnel of the half vector leaves. No roughness in it.
+struct GltfDiffuse {
+  Rgb base_colour{1, 1, 1};
+  double ior = 1.5;
+};
+// Oren and Nayar 1994, the qualitative model: V-shaped grooves with Lambertian sides, one reflection.
+struct OrenNayar {
+  Rgb base_colour{1, 1, 1};
+  double sigma_rad = 0.3;  // standard deviation of the slopes' angle
+};
+// The sigma of a microfacet surface with that alpha (roughness squared): arctan(alpha) / sqrt 2 (Lagarde and de Rousiers 2014, eq B.1),
+// derived for Beckmann's distribution. Good to alpha .4; how far it carries with GGX is in sdk/docs/evaluation.md.
+double oren_nayar_sigma_rad(double alpha);
+// Gotanda 2014, "Designing Reflectance Models for New Consoles": a fit to Lambertian GGX facets under Fresnel. Not reciprocal.
+struct GotandaDiffuse {
+  Rgb base_colour{1, 1, 1};
+  double roughness = 0.5;  // perceptually linear; alpha = roughness^2
+  double f0 = 0.04;        // of the layer over the facets
+};
 // The specular lobe alone: GGX with Schlick's Fresnel.
 struct GgxLobe {
   double alpha = 0.25;
@@ -39,7 +58,8 @@ struct GgxLobe {
   Masking masking = Masking::correlated;
 };
 // A BRDF with every parameter resolved at one point.
-using Brdf = std::variant<Lambert, Principled, Standard, Conductor, MetalRough, DisneyDiffuse, FrostbiteDiffuse, GgxLobe, TwoColour>;
+using Brdf = std::variant<Lambert, Principled, Standard, Conductor, MetalRough, DisneyDiffuse, FrostbiteDiffuse, GgxLobe, TwoColour,
+                          GltfDiffuse, OrenNayar, GotandaDiffuse>;
 
 // BRDF times cosine of `light`, 1/sr. Unit vectors in the shading frame (z is the normal). 0 if either is below the horizon.
 Rgb brdf_cos(const Brdf& brdf, const Vec3d& view, const Vec3d& light);

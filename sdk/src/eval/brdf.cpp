@@ -20,6 +20,8 @@ double mixed_pdf(const LobeFacts& facts, const Vec3d& view, const Vec3d& light) 
 
 }  // namespace
 
+double oren_nayar_sigma_rad(double alpha) { return std::atan(alpha) / std::sqrt(2.0); }
+
 Rgb brdf_cos(const Brdf& brdf, const Vec3d& view, const Vec3d& light) {
   if (!both_above(view, light)) return {};
   return with_kernel(brdf, view, [&](const auto& kernel) { return kernel(light); });
