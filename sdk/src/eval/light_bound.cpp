@@ -1,0 +1,206 @@
+// An area light gives  L  integral of cos_light cos_surface / r^2 dA  over what is seen of it. With d the least distance, and r n.(y - x),
+// the height of y over the surface, and r m.(x - y), that of x over the light, bounded from above over both boxes:
+//     E <= L area min(1, height of x / d) min(1, height of y / d) / d^2;
+// with the least heights, both positive, and the largest distance it is E >= the same.
+// What is curved has no m, and for area stands the largest projected one. A sphere of radius R is seen under the solid angle
+// 2 pi (1 - cos sigma) <= pi R^2 / d^2 (sin sigma = R / (d + R)), and has exactly E = pi R^2 L cos / r^2 above the horizon. A tube's side:
+// where n is its normal at y, n.(x - y) / r <= cos phi, the angle around the axis between n and x, because (rho cos phi - R) <= cos phi
+// sqrt((rho - R cos phi)^2 + R^2 sin^2 phi); the integral over phi gives 2 R l / d^2. In the same way the half spheres at its ends give
+// together pi R^2 / d^2 at most.
+#include "light_bound.h"
+
+#include "etendue/intensity_web.h"
+
+#include <cmath>
+
+namespace etendue::eval {
+namespace {
+
+double largest(const Rgb& c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
+
+Box around_point(const Vec3d& p, const Vec3d& half) {
+  Box box;
+  box.add(p - half);
+  box.add(p + half);
+  return box;
+}
+Box only(const Vec3d& v) { return around_point(v, {}); }
+
+double share(double height, double distance) { return height < distance ? std::max(height / distance, 0.0) : 1; }
+
+// a b over two intervals.
+struct Interval {
+  double low, high;
+};
+Interval product(double a_low, double a_high, double b_low, double b_high) {
+  const double p = a_low * b_low, q = a_low * b_high, r = a_high * b_low, s = a_high * b_high;
+  return {std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s))};
+}
+
+struct Bounded {
+  const Emitter& emitter;
+  double luminance = largest(emitter.radiance);
+
+  LightBound area(const Box& places, double projected) const {
+    LightBound b;
+    b.places = places;
+    b.normals = around_point({}, {1, 1, 1});
+    b.around = luminance * projected;
+    b.most = pi * luminance;
+    b.luminance = luminance;
+    return b;
+  }
+  LightBound flat(const Box& places, const Box& normals, double surface) const {
+    LightBound b = area(places, surface);
+    if (emitter.two_sided) return b;
+    b.normals = normals;
+    std::swap(b.around, b.facing);
+    b.least_cosine = 0;
+    b.sure_facing = b.facing;
+    return b;
+  }
+
+  std::optional<LightBound> operator()(const PunctualEmitter& e) const {
+    struct Shape {
+      double highest, least_cosine, sure;
+    };
+    const Shape shape = std::visit(
+        [](const auto& s) -> Shape {
+          using S = std::decay_t<decltype(s)>;
+          if constexpr (std::is_same_v<S, SpotShape>) return {1, std::cos(s.outer_rad), 0};
+          if constexpr (std::is_same_v<S, FrustumShape>) return {1, 0, 0};
+          if constexpr (std::is_same_v<S, ProfileShape>) return {s.web->max_cd(), s.cone ? std::cos(s.cone->outer_rad) : -1, 0};
+          return {1, -1, 1};
+        },
+        e.shape);
+    LightBound b;
+    b.places = only(e.position);
+    b.normals = shape.least_cosine >= 0 ? only(-e.frame.columns[2]) : around_point({}, {1, 1, 1});
+    b.around = largest(e.intensity) * shape.highest;
+    b.sure_around = b.around * shape.sure;
+    b.most = Box::infinite;
+    b.least_cosine = shape.least_cosine < 0 ? -1 : std::max(shape.least_cosine - 1e-9, 0.0);
+    return b;
+  }
+  std::optional<LightBound> operator()(const SphereEmitter& e) const {
+    LightBound b = area(around_point(e.centre, {e.radius, e.radius, e.radius}), pi * e.radius * e.radius);
+    b.sure_around = b.around;
+    return b;
+  }
+  std::optional<LightBound> operator()(const DiskEmitter& e) const {
+    const auto across = [&](double n) { return e.radius * std::sqrt(std::max(1 - n * n, 0.0)); };
+    return flat(around_point(e.centre, {across(e.normal.x), across(e.normal.y), across(e.normal.z)}), only(e.normal),
+                pi * e.radius * e.radius);
+  }
+  std::optional<LightBound> operator()(const PolygonEmitter& e) const {
+    Box places;
+    Vec3d twice;
+    for (std::size_t i = 0; i < e.vertices.size(); ++i) {
+      const Vec3d& p = e.vertices[i];
+      places.add(p);
+      twice += cross(p - e.vertices[0], e.vertices[(i + 1) % e.vertices.size()] - e.vertices[0]);
+    }
+    if (e.vertices.empty()) places.add(Vec3d{});
+    return flat(places, only(e.normal), 0.5 * length(twice));
+  }
+  std::optional<LightBound> operator()(const TubeEmitter& e) const {
+    const Vec3d r{e.radius, e.radius, e.radius};
+    Box places = around_point(e.a, r);
+    places.add(around_point(e.b, r));
+    const double end = e.caps == Caps::none ? 0 : pi * e.radius * e.radius;
+    return area(places, 2 * e.radius * length(e.b - e.a) + end);
+  }
+  std::optional<LightBound> operator()(const LineEmitter& e) const {
+    LightBound b;
+    b.places.add(e.a), b.places.add(e.b);
+    b.normals = around_point({}, {1, 1, 1});
+    b.around = largest(e.intensity);
+    b.most = Box::infinite;
+    return b;
+  }
+  std::optional<LightBound> operator()(const MeshEmitter& e) const {
+    Box places, normals;
+    double surface = 0;
+    for (const auto& t : e.triangles) {
+      const Vec3d twice = cross(t[1] - t[0], t[2] - t[0]);
+      surface += 0.5 * length(twice);
+      for (const Vec3d& p : t) places.add(p);
+      normals.add(normalised(twice));
+    }
+    if (e.triangles.empty()) places.add(Vec3d{}), normals.add(Vec3d{});
+    LightBound b = flat(places, normals, surface);
+    // Each triangle counts, whether or not another stands before it; those that face away do not.
+    b.most *= static_cast<double>(e.triangles.size());
+    return b;
+  }
+  std::optional<LightBound> operator()(const DistantEmitter&) const { return std::nullopt; }
+  std::optional<LightBound> operator()(const EnvironmentEmitter&) const { return std::nullopt; }
+};
+
+}  // namespace
+
+void LightBound::add(const LightBound& other) {
+  places.add(other.places);
+  normals.add(other.normals);
+  around += other.around;
+  facing += other.facing;
+  sure_around += other.sure_around;
+  sure_facing += other.sure_facing;
+  most += other.most;
+  luminance += other.luminance;
+  least_cosine = std::min(least_cosine, other.least_cosine);
+  range_m = std::max(range_m, other.range_m);
+  if (window.range_m > 0 || other.window.range_m > 0) sure_around = sure_facing = 0;
+  window = {};
+}
+
+std::optional<LightBound> light_bound(const Emitter& emitter) {
+  if (emitter.pattern) return std::nullopt;
+  std::optional<LightBound> bound = std::visit(Bounded{emitter}, emitter.shape);
+  if (!bound) return bound;
+  if (emitter.window.falloff != Falloff::inverse_square && emitter.window.range_m > 0) {
+    bound->window = emitter.window;
+    bound->range_m = emitter.window.range_m;
+  }
+  // The box as its numbers are rounded, and what the differences to points lose.
+  const Vec3d &low = bound->places.low, &high = bound->places.high;
+  const double rounding =
+      1e-15 * std::max({std::abs(low.x), std::abs(low.y), std::abs(low.z), std::abs(high.x), std::abs(high.y), std::abs(high.z)});
+  bound->places.low -= {rounding, rounding, rounding};
+  bound->places.high += {rounding, rounding, rounding};
+  return bound;
+}
+
+Bound bound_at(const LightBound& light, const Box& positions, const Box& normals) {
+  double nearest2 = 0, furthest2 = 0;
+  Interval over_surface{0, 0}, over_light{0, 0};
+  for (int i = 0; i < 3; ++i) {
+    // From the light to the point.
+    const double low = positions.low[i] - light.places.high[i], high = positions.high[i] - light.places.low[i];
+    const double gap = std::max(std::max(low, -high), 0.0), reach = std::max(-low, high);
+    nearest2 += gap * gap;
+    furthest2 += reach * reach;
+    const Interval surface = product(normals.low[i], normals.high[i], -high, -low);
+    const Interval emitter = product(light.normals.low[i], light.normals.high[i], low, high);
+    over_surface = {over_surface.low + surface.low, over_surface.high + surface.high};
+    over_light = {over_light.low + emitter.low, over_light.high + emitter.high};
+  }
+  if (!(over_surface.high > 0)) return {};
+  const double nearest = std::sqrt(nearest2);
+  if (nearest >= light.range_m) return {};
+  if (light.least_cosine >= 0 && !(over_light.high > 0 && over_light.high >= light.least_cosine * nearest)) return {};
+  if (!(nearest2 > 0)) return {light.most, 0, light.luminance};
+  const double emitted = (light.around + light.facing * share(over_light.high, nearest)) / nearest2;
+  // Normals are units but for the rounding of floats.
+  Bound bound;
+  bound.most = std::min(1.000001 * emitted * share(over_surface.high, nearest) * window_at(light.window, nearest), light.most);
+  bound.reach = std::min(emitted, light.luminance);
+  if (over_surface.low > 0) {
+    const double furthest = std::sqrt(furthest2);
+    bound.least = 0.999999 * (light.sure_around + light.sure_facing * std::max(over_light.low, 0.0) / furthest) * over_surface.low /
+                  (furthest2 * furthest) * window_at(light.window, furthest);
+  }
+  return bound;
+}
+
+}  // namespace etendue::eval

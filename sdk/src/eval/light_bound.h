@@ -1,0 +1,53 @@
+// Bounds of the light of one or many emitters at every point of a box.
+#pragma once
+
+#include "etendue/eval.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace etendue::eval {
+
+// Of positions, or of vectors such as normals.
+struct Box {
+  Vec3d low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
+
+  void add(const Vec3d& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  void add(const Box& other) { add(other.low), add(other.high); }
+
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+};
+
+// Everything that the lights emit, from anywhere within `places`.
+struct LightBound {
+  Box places, normals;  // normals: of the emitting sides, or the axes of spots
+  // The illuminance facing the lights at the distance d of the nearest is at most (around + facing cos) / d^2, cos that of the angle
+  // to the closest of the normals; cd.
+  double around = 0, facing = 0;
+  // Of it, what is certain where all of the lights is seen: the same with the distance of the furthest.
+  double sure_around = 0, sure_facing = 0;
+  double most = 0;       // lx, at any distance
+  double luminance = 0;  // cd/m2: the sum of the lights' largest channels
+  // No light goes where the cosine with all normals is less; -1: it goes everywhere.
+  double least_cosine = -1;
+  double range_m = Box::infinite;  // no light goes further
+  Window window;                   // of one light; of many none
+
+  void add(const LightBound& other);
+};
+
+// Nothing where there is no such bound: environments, true directions, patterns.
+std::optional<LightBound> light_bound(const Emitter& emitter);
+
+// What the lights give at any point in `positions` with any of `normals`, in lux, the largest channel: at most `most`, 0 where none is
+// seen, and at least `least`. `reach`: cd/m2 times solid angle, at most `luminance`.
+struct Bound {
+  double most = 0, least = 0, reach = 0;
+};
+Bound bound_at(const LightBound& light, const Box& positions, const Box& normals);
+
+}  // namespace etendue::eval

@@ -1,0 +1,505 @@
+// Points are put next to their neighbours (point_blocks.h). A group of them walks the tree of the lights' bounds, the largest first; what
+// it ends with, lights and parts of the tree, is where each of its blocks begins: bounds for the block, the largest first, evaluated until
+// the bounds of all that is left are within the tolerance at every point. Where half of the points are done they leave the block, and the
+// others go on with closer bounds.
+#include "etendue/rig_batch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "batch_error.h"
+#include "light_bound.h"
+#include "point_blocks.h"
+
+namespace etendue::eval {
+namespace {
+
+constexpr std::size_t block_size = PointBlocks::longest_block;
+constexpr std::size_t points_at_once = std::size_t{1} << 20;
+// Of LightBatch: of the value, and of the luminance times the solid angle, which is at most 1 there.
+constexpr double batch_error = 1e-5, batch_error_of_reach = 2e-6;
+// Half a unit in the last place, which every term adds to a sum, and its own product and factor to it.
+constexpr double float_rounding = 6e-8, double_rounding = 1.2e-16;
+// Up to this share of the tolerance a group leaves parts of the tree whole.
+constexpr double share_of_parts = 0.1;
+
+struct Node {
+  LightBound bound;
+  std::uint32_t lights, light;  // how many; of one, which
+  std::uint32_t left, right;    // 0: one light
+};
+
+struct Light {
+  std::optional<LightBatch> batch;  // none: one point after the other, in double
+  Vec3f colour;
+  Rgb tint;  // 1 in the largest channel
+};
+// One without an upper bound, though perhaps with one of where it is seen.
+struct Unbounded {
+  std::uint32_t light;
+  std::optional<LightBound> place;
+};
+
+// What is not decided yet: one light or a part of the tree. The middle of its bounds, which stands for a light that is seen for certain,
+// and how far it is off at most; for anything else stands nothing.
+struct Entry {
+  double middle, error, reach;
+  std::uint32_t node;
+
+  double most() const { return middle + error; }
+};
+bool smaller(const Entry& a, const Entry& b) { return a.error < b.error; }
+Entry take_largest(std::vector<Entry>& heap) {
+  std::pop_heap(heap.begin(), heap.end(), smaller);
+  const Entry largest = heap.back();
+  heap.pop_back();
+  return largest;
+}
+double sum_of(std::span<const Entry> entries) {
+  double sum = 0;
+  for (const Entry& e : entries) sum += e.error;
+  return sum;
+}
+
+// Boxes of positions in the world, as wide as sums with the origin may be rounded, and of normals.
+struct Boxes {
+  Box positions, normals;
+  Boxes() = default;
+  Boxes(std::span<const PlacedPoint> points, const Vec3d& origin) {
+    std::array<float, 6> low = points[0].at, high = low;
+    for (const PlacedPoint& p : points) {
+      for (std::size_t k = 0; k < 6; ++k) low[k] = p.at[k] < low[k] ? p.at[k] : low[k];
+      for (std::size_t k = 0; k < 6; ++k) high[k] = p.at[k] > high[k] ? p.at[k] : high[k];
+    }
+    positions.low = origin + Vec3d{low[0], low[1], low[2]};
+    positions.high = origin + Vec3d{high[0], high[1], high[2]};
+    const auto widen = [](double& l, double& h, double o) {
+      const double rounding = 1e-15 * (std::max(std::abs(l), std::abs(h)) + std::abs(o));
+      l -= rounding, h += rounding;
+    };
+    widen(positions.low.x, positions.high.x, origin.x);
+    widen(positions.low.y, positions.high.y, origin.y);
+    widen(positions.low.z, positions.high.z, origin.z);
+    normals.low = {low[3], low[4], low[5]};
+    normals.high = {high[3], high[4], high[5]};
+  }
+};
+
+// Points in work.
+struct Block {
+  std::size_t count = 0;
+  std::array<PlacedPoint, block_size> points;
+  std::array<std::array<float, block_size>, 6> columns;
+  Boxes boxes;
+
+  std::span<const PlacedPoint> all() const { return {points.data(), count}; }
+  void add(const PlacedPoint& p) { points[count++] = p; }
+  // Once the points are there. Columns are whole vectors: the last point is repeated.
+  void settle(const Vec3d& origin) {
+    boxes = Boxes(all(), origin);
+    for (std::size_t i = 0; i < padded(); ++i)
+      for (std::size_t k = 0; k < 6; ++k) columns[k][i] = points[std::min(i, count - 1)].at[k];
+  }
+  std::size_t padded() const { return std::min((count + 15) / 16 * 16, block_size); }
+  PointBatch batch(const Vec3d& origin) const {
+    const auto column = [this](std::size_t k) { return std::span(columns[k].data(), padded()); };
+    return {column(0), column(1), column(2), column(3), column(4), column(5), origin};
+  }
+  Vec3d position(std::size_t i, const Vec3d& origin) const { return origin + Vec3d{points[i].at[0], points[i].at[1], points[i].at[2]}; }
+  Vec3d normal(std::size_t i) const { return normalised(Vec3d{points[i].at[3], points[i].at[4], points[i].at[5]}); }
+};
+
+template <class T>
+struct Sums {
+  std::array<T, block_size> r, g, b;
+  std::array<bool, block_size> done;
+};
+
+float as_float(double x) {
+  constexpr double most = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -most, most));
+}
+
+bool below_horizon(const DistantEmitter& e, const Box& normals) {
+  double highest = 0;
+  for (int i = 0; i < 3; ++i) highest += std::max(normals.low[i] * e.towards[i], normals.high[i] * e.towards[i]);
+  return highest < -std::sin(std::min(e.radius_rad, 0.5 * pi)) - 1e-6;
+}
+
+}  // namespace
+
+struct RigBatch::Prepared {
+  std::vector<Emitter> emitters;
+  std::vector<Light> lights;
+  std::vector<Node> nodes;  // the first is the root
+  std::vector<Unbounded> unbounded;
+  bool out_of_gamut = false;  // some light has a negative channel
+
+  std::uint32_t build(std::span<const LightBound> bounds, std::span<std::uint32_t> which);
+};
+
+struct RigBatch::Workspace::Parts {
+  PointBlocks points;
+  std::vector<PointBlocks::Range> blocks;
+  std::vector<Entry> found, parts;  // of a group: what it ends with, and parts of the tree on the way there
+  std::vector<Entry> open;          // of a block: a heap
+  Block block, again;
+  Sums<float> sums;
+  Sums<double> exact;
+  std::array<float, block_size> sr;
+};
+
+// Halves of equal number across the longest edge of the box of the lights' middles.
+std::uint32_t RigBatch::Prepared::build(std::span<const LightBound> bounds, std::span<std::uint32_t> which) {
+  const auto at = static_cast<std::uint32_t>(nodes.size());
+  nodes.push_back({bounds[which[0]], static_cast<std::uint32_t>(which.size()), which[0], 0, 0});
+  if (which.size() == 1) return at;
+  const auto middle = [&](std::uint32_t i) { return bounds[i].places.low * 0.5 + bounds[i].places.high * 0.5; };
+  Box middles;
+  for (const std::uint32_t i : which) middles.add(middle(i));
+  const Vec3d edge = middles.high - middles.low;
+  const int axis = edge.x >= edge.y && edge.x >= edge.z ? 0 : edge.y >= edge.z ? 1 : 2;
+  const std::size_t half = which.size() / 2;
+  std::nth_element(which.begin(), which.begin() + static_cast<std::ptrdiff_t>(half), which.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return middle(a)[axis] < middle(b)[axis]; });
+  const std::uint32_t left = build(bounds, which.first(half)), right = build(bounds, which.subspan(half));
+  LightBound both = nodes[left].bound;
+  both.add(nodes[right].bound);
+  nodes[at] = {both, static_cast<std::uint32_t>(which.size()), 0, left, right};
+  return at;
+}
+
+RigBatch::RigBatch(std::vector<Emitter> emitters) {
+  auto prepared = std::make_unique<Prepared>();
+  std::vector<LightBound> bounds(emitters.size());
+  std::vector<std::uint32_t> bounded;
+  for (std::uint32_t i = 0; i < emitters.size(); ++i) {
+    const Emitter& e = emitters[i];
+    Light light;
+    if (Result<LightBatch> batch = LightBatch::of(e)) {
+      light.batch = std::move(*batch);
+      light.colour = vec_cast<float>(e.radiance);
+    }
+    const auto* punctual = std::get_if<PunctualEmitter>(&e.shape);
+    const Rgb colour = punctual != nullptr ? punctual->intensity : e.radiance;
+    const double largest = std::max({std::abs(colour.x), std::abs(colour.y), std::abs(colour.z)});
+    light.tint = largest > 0 ? colour / largest : Rgb{};
+    prepared->lights.push_back(std::move(light));
+    prepared->out_of_gamut = prepared->out_of_gamut || std::min({e.radiance.x, e.radiance.y, e.radiance.z}) < 0;
+    if (const std::optional<LightBound> bound = light_bound(e)) {
+      bounds[i] = *bound;
+      bounded.push_back(i);
+    } else {
+      Emitter plain = e;
+      plain.pattern = {};
+      plain.radiance = {1, 1, 1};
+      prepared->unbounded.push_back({i, light_bound(plain)});
+    }
+  }
+  prepared->nodes.reserve(2 * bounded.size());
+  if (!bounded.empty()) prepared->build(bounds, bounded);
+  prepared->emitters = std::move(emitters);
+  prepared_ = std::move(prepared);
+}
+RigBatch::~RigBatch() = default;
+RigBatch::RigBatch(RigBatch&&) noexcept = default;
+RigBatch& RigBatch::operator=(RigBatch&&) noexcept = default;
+const std::vector<Emitter>& RigBatch::emitters() const { return prepared_->emitters; }
+
+RigBatch::Workspace::Workspace() : parts_(std::make_unique<Parts>()) {}
+RigBatch::Workspace::~Workspace() = default;
+RigBatch::Workspace::Workspace(Workspace&&) noexcept = default;
+RigBatch::Workspace& RigBatch::Workspace::operator=(Workspace&&) noexcept = default;
+
+struct RigBatch::Run {
+  const Prepared& rig;
+  Workspace::Parts& work;
+  Vec3d origin;
+  double absolute, relative;
+  std::span<Vec3f> lux;
+  std::span<float> bound;
+  RigCounts& counts;
+
+  // Of a block.
+  double rest = 0;     // the sum of the bounds of what is open, as it is kept up to date: to a few digits
+  double reached = 0;  // what no point has more of from what is evaluated
+  double reach = 0;    // cd/m2 times solid angle of the same
+  std::size_t terms = 0;
+  bool repeating = false;  // in double
+
+  Entry entry(std::uint32_t node, const Boxes& boxes) {
+    ++counts.bounds;
+    const Node& n = rig.nodes[node];
+    const Bound b = bound_at(n.bound, boxes.positions, boxes.normals);
+    if (n.left != 0 || !(b.least > 0)) return {0, b.most, b.reach, node};
+    return {0.5 * (b.most + b.least), 0.5 * (b.most - b.least), b.reach, node};
+  }
+  bool is_light(const Entry& e) const { return rig.nodes[e.node].left == 0; }
+  void unseen(const Entry& e, std::size_t points) {
+    if (!repeating) counts.skipped_unseen += rig.nodes[e.node].lights * points;
+  }
+
+  void group(std::span<const PlacedPoint> points);
+  void blocks(std::span<const PlacedPoint> points);
+
+  template <class T>
+  void solve(Sums<T>& sums);
+  void open(std::span<const Entry> entries);
+  void push(const Entry& e);
+  template <class T>
+  void evaluate(std::uint32_t light, double most, double reach_of_it, Sums<T>& sums);
+  template <class T>
+  void evaluate_unbounded(Sums<T>& sums);
+  template <class T>
+  std::size_t judge(Sums<T>& sums);
+  template <class T>
+  void leave(Sums<T>& sums, bool all);
+
+  // e = part P + rest_of_error is what the error may be where the sum is P.
+  double part = 0, rest_of_error = 0;
+  Rgb middle{};  // the sum of what stands for the lights that are open
+};
+
+void RigBatch::Run::group(std::span<const PlacedPoint> points) {
+  const Boxes boxes(points, origin);
+  double lights = 0, parts = 0;
+  const auto offer = [&](std::uint32_t node) {
+    const Entry e = entry(node, boxes);
+    if (!(e.most() > 0)) return unseen(e, points.size());
+    if (is_light(e)) {
+      work.found.push_back(e);
+      if (std::isfinite(e.error)) lights += e.most();
+      return;
+    }
+    work.parts.push_back(e);
+    std::push_heap(work.parts.begin(), work.parts.end(), smaller);
+    parts += e.error;
+  };
+  work.found.clear();
+  work.parts.clear();
+  if (!rig.nodes.empty()) offer(0);
+  while (!work.parts.empty() && !(parts <= share_of_parts * std::max(absolute, relative * lights))) {
+    const Entry e = take_largest(work.parts);
+    parts = std::isfinite(e.error) ? parts - e.error : sum_of(work.parts);
+    offer(rig.nodes[e.node].left);
+    offer(rig.nodes[e.node].right);
+  }
+  work.found.insert(work.found.end(), work.parts.begin(), work.parts.end());
+}
+
+void RigBatch::Run::blocks(std::span<const PlacedPoint> points) {
+  Block& block = work.block;
+  for (const PointBlocks::Range& range : work.blocks) {
+    block.count = 0;
+    work.again.count = 0;
+    for (const PlacedPoint& p : points.subspan(range.first, range.count)) block.add(p);
+    repeating = false;
+    solve(work.sums);
+    if (work.again.count == 0) continue;
+    std::swap(block, work.again);
+    repeating = true;
+    solve(work.exact);
+  }
+}
+
+void RigBatch::Run::push(const Entry& e) {
+  if (!(e.most() > 0)) return unseen(e, work.block.count);
+  work.open.push_back(e);
+  std::push_heap(work.open.begin(), work.open.end(), smaller);
+  rest += e.error;
+}
+
+void RigBatch::Run::open(std::span<const Entry> entries) {
+  std::size_t kept = 0;
+  // `entries` may be those that are open.
+  work.open.resize(std::max(work.open.size(), entries.size()));
+  for (const Entry& before : entries) {
+    const Entry e = entry(before.node, work.block.boxes);
+    if (!(e.most() > 0)) {
+      unseen(e, work.block.count);
+      continue;
+    }
+    work.open[kept++] = e;
+  }
+  work.open.resize(kept);
+  std::make_heap(work.open.begin(), work.open.end(), smaller);
+  rest = sum_of(work.open);
+}
+
+// `most` and `reach_of_it`: its bounds, infinite where there are none.
+template <class T>
+void RigBatch::Run::evaluate(std::uint32_t light, double most, double reach_of_it, Sums<T>& sums) {
+  const Block& block = work.block;
+  ++terms;
+  (repeating ? counts.repeated : counts.evaluated) += block.count;
+  if constexpr (std::is_same_v<T, float>) {
+    const Light& l = rig.lights[light];
+    const std::size_t count = block.padded();
+    if (l.batch && l.batch->projected_solid_angles(block.batch(origin), std::span(work.sr.data(), count), 0)) {
+      for (std::size_t i = 0; i < count; ++i) {
+        sums.r[i] += work.sr[i] * l.colour.x;
+        sums.g[i] += work.sr[i] * l.colour.y;
+        sums.b[i] += work.sr[i] * l.colour.z;
+      }
+      reached += most;
+      reach += reach_of_it;
+      return;
+    }
+  }
+  double largest = 0;
+  for (std::size_t i = 0; i < block.count; ++i) {
+    const Rgb one = eval::illuminance(rig.emitters[light], block.position(i, origin), block.normal(i));
+    sums.r[i] += static_cast<T>(one.x);
+    sums.g[i] += static_cast<T>(one.y);
+    sums.b[i] += static_cast<T>(one.z);
+    largest = std::max({largest, std::abs(one.x), std::abs(one.y), std::abs(one.z)});
+  }
+  reached += largest;
+}
+
+template <class T>
+void RigBatch::Run::evaluate_unbounded(Sums<T>& sums) {
+  const Boxes& boxes = work.block.boxes;
+  for (const Unbounded& u : rig.unbounded) {
+    ++counts.bounds;
+    const auto* distant = std::get_if<DistantEmitter>(&rig.emitters[u.light].shape);
+    const bool hidden = distant != nullptr ? below_horizon(*distant, boxes.normals)
+                                           : u.place && !(bound_at(*u.place, boxes.positions, boxes.normals).most > 0);
+    if (!hidden)
+      evaluate(u.light, Box::infinite, Box::infinite, sums);
+    else if (!repeating)
+      counts.skipped_unseen += work.block.count;
+  }
+}
+
+// Marks the points that are done and counts them. Let P be the largest channel of a point's sum. Its error is at most e = a P + s: s are
+// the bounds of what is open and what evaluation errs by in parts of the luminance, a P what it errs by in parts of the value. The exact
+// largest channel is then at least P - e, so that e <= max(absolute, relative (P - e)) is enough, which is
+//     P <= (absolute - s) / a   or   P >= s (1 + relative) / (relative - a (1 + relative)).
+// Where channels are negative P may be less than what it is the sum of: then for a P stands a times the bounds of what was evaluated.
+template <class T>
+std::size_t RigBatch::Run::judge(Sums<T>& sums) {
+  constexpr bool in_floats = std::is_same_v<T, float>;
+  const auto n = static_cast<double>(terms);
+  part = float_rounding + double_rounding * n;  // of the answer, and of the sum
+  rest = sum_of(work.open);
+  rest_of_error = rest * (1 + double_rounding * static_cast<double>(work.open.size()));
+  middle = {};
+  for (const Entry& e : work.open)
+    if (e.middle > 0) middle += rig.lights[rig.nodes[e.node].light].tint * e.middle;
+  if constexpr (in_floats) {
+    part = batch_error + float_rounding * (n + 3);
+    rest_of_error += batch_error_of_reach * reach;
+  }
+  if (rig.out_of_gamut) {
+    rest_of_error += part * (reached + std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)}));
+    part = 0;
+  }
+  const double s = rest_of_error, slope = relative - part * (1 + relative);
+  const double up_to = part > 0 ? (absolute - s) / part : s <= absolute ? Box::infinite : -Box::infinite;
+  const double from = slope > 0 ? s * (1 + relative) / slope : Box::infinite;
+  // Compared as floats they may be rounded the wrong way.
+  const auto low = static_cast<T>(up_to - 1e-6 * std::abs(up_to)), high = static_cast<T>(from * (1 + 1e-6));
+  const auto r = static_cast<T>(middle.x), g = static_cast<T>(middle.y), b = static_cast<T>(middle.z);
+  std::size_t done = 0;
+  for (std::size_t i = 0; i < work.block.count; ++i) {
+    const T p = std::max(std::max(sums.r[i] + r, sums.g[i] + g), sums.b[i] + b);
+    sums.done[i] = (p <= low || p >= high) && p <= std::numeric_limits<T>::max();
+    done += sums.done[i] ? 1 : 0;
+  }
+  return done;
+}
+
+// Writes the points that are done, or all, and keeps the others in the block.
+template <class T>
+void RigBatch::Run::leave(Sums<T>& sums, bool all) {
+  Block& block = work.block;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < block.count; ++i) {
+    if (all || sums.done[i]) {
+      const std::uint32_t index = block.points[i].index;
+      const Rgb sum = Rgb{sums.r[i], sums.g[i], sums.b[i]} + middle;
+      lux[index] = {as_float(sum.x), as_float(sum.y), as_float(sum.z)};
+      if (!bound.empty()) bound[index] = as_float(part * std::max({sum.x, sum.y, sum.z}) + rest_of_error);
+      continue;
+    }
+    block.points[kept] = block.points[i];
+    sums.r[kept] = sums.r[i], sums.g[kept] = sums.g[i], sums.b[kept] = sums.b[i];
+    ++kept;
+  }
+  if (!repeating)
+    for (const Entry& e : work.open) counts.skipped_small += rig.nodes[e.node].lights * (block.count - kept);
+  block.count = kept;
+}
+
+template <class T>
+void RigBatch::Run::solve(Sums<T>& sums) {
+  Block& block = work.block;
+  reached = reach = 0;
+  terms = 0;
+  block.settle(origin);
+  sums.r.fill(0), sums.g.fill(0), sums.b.fill(0);
+  evaluate_unbounded(sums);
+  open(work.found);
+  while (block.count > 0) {
+    if (work.open.empty() || rest <= std::max(absolute, relative * reached)) {
+      const std::size_t done = judge(sums);
+      if (work.open.empty()) {
+        // Floats are not enough for the others.
+        for (std::size_t i = 0; i < block.count && !repeating; ++i)
+          if (!sums.done[i]) work.again.add(block.points[i]);
+        return leave(sums, repeating);
+      }
+      if (2 * done >= block.count) {
+        leave(sums, false);
+        if (block.count == 0) return;
+        block.settle(origin);
+        open(work.open);
+        continue;
+      }
+    }
+    const Entry e = take_largest(work.open);
+    rest = std::isfinite(e.error) ? rest - e.error : sum_of(work.open);
+    if (is_light(e)) {
+      evaluate(rig.nodes[e.node].light, e.most(), e.reach, sums);
+    } else {
+      push(entry(rig.nodes[e.node].left, block.boxes));
+      push(entry(rig.nodes[e.node].right, block.boxes));
+    }
+  }
+}
+
+Result<RigCounts> RigBatch::illuminance(const PointBatch& points, const Tolerance& tolerance, std::span<Vec3f> lux, std::span<float> bound,
+                                        Vec3f where_none, Workspace& workspace) const {
+  for (const std::span<const float>& s : {points.px, points.py, points.pz, points.nx, points.ny, points.nz})
+    if (s.size() != lux.size()) return batch_sizes_differ(s.size(), lux.size());
+  if (!bound.empty() && bound.size() != lux.size()) return batch_sizes_differ(lux.size(), bound.size());
+  Workspace::Parts& work = *workspace.parts_;
+  RigCounts counts;
+  const double absolute = tolerance.absolute > 0 ? tolerance.absolute : 0;
+  const double relative = tolerance.relative > 1e-7 ? tolerance.relative : 1e-7;
+  for (std::size_t first = 0; first < lux.size(); first += points_at_once) {
+    const std::size_t count = std::min(points_at_once, lux.size() - first);
+    work.points.arrange(points, first, count);
+    Run run{
+        *prepared_, work, points.origin, absolute, relative, lux.subspan(first, count), bound.empty() ? bound : bound.subspan(first, count),
+        counts};
+    for (const std::uint32_t i : work.points.not_finite()) {
+      run.lux[i] = where_none;
+      if (!bound.empty()) run.bound[i] = 0;
+    }
+    counts.without += work.points.not_finite().size();
+    for (const PointBlocks::Group& group : work.points.groups()) {
+      const std::span<const PlacedPoint> ordered = work.points.blocks_of(group, work.blocks);
+      run.group(ordered);
+      run.blocks(ordered);
+    }
+  }
+  return counts;
+}
+
+}  // namespace etendue::eval
