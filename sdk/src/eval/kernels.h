@@ -14,6 +14,7 @@ namespace etendue::eval {
 struct LobeFacts {
   double alpha = 0;           // of the specular lobe; 0: there is none
   double specular_share = 0;  // probability with which sampling takes the specular lobe
+  bool folded = false;        // bends where the light crosses the plane of the normal across the view
 };
 
 struct LambertKernel {
@@ -67,7 +68,7 @@ struct OrenNayarKernel {
     const double along = std::max(v.x * l.x + v.y * l.y, 0.0);
     return scale * (l.z * (a + b * along / std::max(v.z, l.z)));
   }
-  LobeFacts facts() const { return {}; }
+  LobeFacts facts() const { return {.folded = true}; }
   Vec3d v;
   Rgb scale;
   double a, b;
@@ -92,7 +93,7 @@ struct GotandaKernel {
     const double vd = retro * (1 - std::pow(away, power)), bp = along < 0 ? 1.4 * v.z * nl * along : along;
     return scale * std::max(fresnel * lm + vd * bp, 0.0);
   }
-  LobeFacts facts() const { return {}; }
+  LobeFacts facts() const { return {.folded = true}; }
   Vec3d v;
   Rgb scale;
   double alpha, fresnel, retro, power;

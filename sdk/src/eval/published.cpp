@@ -4,9 +4,7 @@
 #include <vector>
 
 namespace etendue::eval {
-namespace {
 
-// Sides that differ from a rectangle's by less than a millionth of its size are one.
 std::optional<RectView> rect_view(const PolygonEmitter& polygon, bool two_sided, const Vec3d& position) {
   if (polygon.vertices.size() != 4) return std::nullopt;
   const auto& v = polygon.vertices;
@@ -20,8 +18,6 @@ std::optional<RectView> rect_view(const PolygonEmitter& polygon, bool two_sided,
   view.y = cross(view.normal, view.x);
   return view;
 }
-
-}  // namespace
 
 ClippedQuad clipped(const std::array<Vec3d, 4>& quad, const Vec3d& n) {
   ClippedQuad out;

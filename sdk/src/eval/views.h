@@ -27,6 +27,9 @@ struct RectView {
   }
 };
 
+// Of a polygon of four right angles: sides that differ from a rectangle's by less than a millionth of its size are one.
+std::optional<RectView> rect_view(const PolygonEmitter& polygon, bool two_sided, const Vec3d& position);
+
 struct DiskView {
   Vec3d centre, normal;
   double radius;
