@@ -14,8 +14,7 @@ using namespace etendue;
 using namespace etendue::eval;
 using namespace etendue::eval::protocol;
 
-// The limits for all lights are a fifth of what the rule may do at most (.15 % and 1.5 %), because 60 lights scatter; the acceptance
-// program asks the same of more.
+// Half of the limits that the acceptance program has for a thousand lights: the rule is ten times below those, and sixty lights scatter.
 class Rule : public testing::TestWithParam<std::tuple<Kind, bool>> {};
 TEST_P(Rule, IsNearToTheReference) {
   const auto& [kind, above] = GetParam();

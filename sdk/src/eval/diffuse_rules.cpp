@@ -63,8 +63,8 @@ std::optional<Choice> light_vector(const Emitter& emitter, const ShadingPoint& p
 
 constexpr std::string_view equation = "Lagarde and de Rousiers 2014, eq 45";
 constexpr DiffuseRule rules[] = {
-    {"frostbite-45", equation, "The light's position, as Frostbite does: under 1 % off above the horizon, a quarter across it.",
-     light_position},
+    {"frostbite-45", equation,
+     "The light's position, as Frostbite does: up to 5 % off above the horizon with Disney's lobe, a quarter across it.", light_position},
     {"frostbite-45-point", equation,
      "The point where cos(theta) / r^2 is highest, of rectangles: what the text calls better. Their shader takes Drobot's approximation of "
      "it.",
