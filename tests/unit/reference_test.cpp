@@ -360,4 +360,35 @@ TEST(Extremes, AreDefined) {
   }
 }
 
+// Oren and Nayar's and Gotanda's lobes bend: across the plane of the normal across the view, and where the light is as high as the view.
+// A rule's powers say nothing of such an integrand, and the bound has to hold without them.
+TEST(Reference, KeepsItsBoundWhereTheLobeBends) {
+  Random random(31);
+  for (int i = 0; i < 240; ++i) {
+    const double roughness = random.uniform(0.3, 1);
+    const Brdf brdf = i % 2 == 0 ? Brdf{OrenNayar{{1, 1, 1}, oren_nayar_sigma_rad(roughness * roughness)}}
+                                 : Brdf{GotandaDiffuse{{1, 1, 1}, roughness, 0.04}};
+    const Case c = random_case(static_cast<Kind>(i / 2 % 4), random, i, brdf);
+    const Estimate tight = reference(c.place.emitter, c.point, {1e-7, 1e-10});
+    for (const double tolerance : {1e-2, 1e-4}) {
+      const Estimate loose = reference(c.place.emitter, c.point, {tolerance, 0});
+      EXPECT_LE(std::abs(loose.value.x - tight.value.x), loose.error.x + tight.error.x) << i << " " << tolerance;
+      EXPECT_LE(loose.error.x, tolerance * loose.value.x * (1 + 1e-9)) << i;
+    }
+  }
+}
+
+// A disk that touches the surface's horizon from below, at the middle of its rim's own parameter, is below it.
+TEST(Reference, LightThatTouchesTheHorizonFromBelow) {
+  const Emitter light = white(DiskEmitter{{1, 0, 0.5}, {0, 0, -1}, {1, 0, 0}, 1});
+  for (const double turn : {0.0, 0.7, 1.5, 3.0}) {
+    const Vec3d side{std::cos(turn), std::sin(turn), 0};
+    Emitter turned = light;
+    std::get<DiskEmitter>(turned.shape).centre = side + Vec3d{0, 0, 0.5};
+    const ShadingPoint dark{{}, {0, 0, 1}, -side, {0, 0, 1}, Lambert{{1, 1, 1}}}, lit{{}, {0, 0, 1}, side, {0, 0, 1}, Lambert{{1, 1, 1}}};
+    EXPECT_NEAR(reference(turned, dark, {1e-6, 0}).value.x, 0, 1e-7) << turn;
+    EXPECT_NEAR(reference(turned, lit, {1e-6, 0}).value.x, lux_at(turned, {}, {0, 0, 1}) / pi, 1e-7) << turn;
+  }
+}
+
 }  // namespace

@@ -117,7 +117,8 @@ Contour clipped(const Contour& outline, const Vec3d& n) {
     double begin = arc.begin;
     for (std::size_t i = 0; i <= zeros.count; ++i) {
       const double end = i < zeros.count ? zeros.s[i] : arc.end;
-      if (dot(n, arc.at(0.5 * (begin + end))) >= 0) {
+      // Of one sign between crossings, but for a point that touches the plane: that may be any one of the three.
+      if (dot(n, arc.at(begin) + arc.at(0.5 * (begin + end)) + arc.at(end)) >= 0) {
         Arc part = arc;
         part.begin = begin;
         part.end = end;

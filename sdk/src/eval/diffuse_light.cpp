@@ -16,7 +16,6 @@ class RatioSums {
  public:
   template <class Kernel>
   void add(const Contour& contour, const Kernel& kernel) {
-    if (contour.empty()) return;
     const Sectors sectors = sectors_of(contour);
     for (const SectorPiece& piece : sectors.pieces) add(sectors, piece, kernel);
   }
@@ -89,15 +88,8 @@ class RatioSums {
 template <class Kernel>
 RatioSums ratio_sums(const Emitter& emitter, const LocalFrame& frame, const Horizons& horizons, const Vec3d& view, const Kernel& kernel) {
   RatioSums sums;
-  const double across = std::hypot(view.x, view.y);
-  const bool cut = kernel.facts().folded && across > 1e-9;
   each_outline(emitter, frame, [&](const Contour& outline, std::size_t) {
-    const Contour lit = clipped(outline, horizons);
-    if (lit.empty()) return;
-    if (!cut) return sums.add(lit, kernel);
-    const Vec3d ahead{view.x / across, view.y / across, 0};
-    sums.add(clipped(lit, ahead), kernel);
-    sums.add(clipped(lit, -ahead), kernel);
+    each_smooth_part(clipped(outline, horizons), view, kernel.facts().folded, [&](const Contour& part) { sums.add(part, kernel); });
   });
   return sums;
 }

@@ -5,6 +5,8 @@
 #include "etendue/eval.h"
 #include "silhouette.h"
 
+#include <cmath>
+#include <utility>
 #include <vector>
 
 namespace etendue::eval {
@@ -31,6 +33,18 @@ inline Horizons horizons_of(const LocalFrame& frame, const Vec3d& normal, const 
   return {frame.vector(surface_normal), dot(apart, apart) > 1e-24};
 }
 Contour clipped(const Contour& outline, const Horizons& horizons);
+
+// Calls use(contour) for the parts of an outline on which a BRDF is smooth: a folded one (LobeFacts) bends where the light crosses the
+// plane of the normal across the view.
+template <class Use>
+void each_smooth_part(Contour contour, const Vec3d& view, bool folded, Use use) {
+  const double across = std::hypot(view.x, view.y);
+  if (contour.empty()) return;
+  if (!folded || !(across > 1e-9)) return use(std::move(contour));
+  const Vec3d ahead{view.x / across, view.y / across, 0};
+  for (const Vec3d& side : {ahead, -ahead})
+    if (Contour part = clipped(contour, side); !part.empty()) use(std::move(part));
+}
 
 // Calls use(contour, index) for every outline that the emitter shows to the point, not clipped. The index counts the triangles of a mesh;
 // it is 0 for all else. Punctual lights, true directions and lines have no outline; an environment has the horizon of z.

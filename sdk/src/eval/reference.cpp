@@ -185,25 +185,28 @@ Estimate over_small_disk(const Setting& s, const Kernel& kernel, double alpha, c
 
 template <class Kernel>
 Estimate over_outlines(const Setting& s, const Kernel& kernel) {
-  const double alpha = kernel.facts().alpha;
+  const LobeFacts facts = kernel.facts();
   const Rgb radiance = luminance_of(s.emitter);
   const Tolerance tolerance = Scaled(radiance)(s.tolerance);
   const bool modulated = is_modulated(s.emitter);
-  const Estimate tried = modulated ? Estimate{} : over_small_disk(s, kernel, alpha, tolerance);
+  const Estimate tried = modulated || facts.folded ? Estimate{} : over_small_disk(s, kernel, facts.alpha, tolerance);
   if (tried.evaluations > 0 && reached(tried, tolerance)) return {tried.value * radiance, tried.error * radiance, tried.evaluations};
   std::vector<Fan> fans;
   each_outline(s.emitter, s.frame, [&](const Contour& outline, std::size_t index) {
     if (outline.empty()) return;
-    Fan fan;
-    fan.contour = clipped(outline, s.horizons);
-    if (fan.contour.empty() || is_inverted(fan.contour)) return;
-    fan.index = index;
-    if (alpha > 0) {
-      centre_at_lobe(fan, s.view, alpha);
-    } else {
-      centre_anywhere(fan);
-    }
-    fans.push_back(std::move(fan));
+    Contour lit = clipped(outline, s.horizons);
+    if (lit.empty() || is_inverted(lit)) return;
+    each_smooth_part(std::move(lit), s.view, facts.folded, [&](Contour part) {
+      Fan fan;
+      fan.contour = std::move(part);
+      fan.index = index;
+      if (facts.alpha > 0) {
+        centre_at_lobe(fan, s.view, facts.alpha);
+      } else {
+        centre_anywhere(fan);
+      }
+      fans.push_back(std::move(fan));
+    });
   });
   if (fans.empty()) return {};
   Estimate estimate;
@@ -212,10 +215,10 @@ Estimate over_outlines(const Setting& s, const Kernel& kernel) {
       if (!(l.z > 0)) return Rgb{};
       return kernel(l) * modulation_along(s.emitter, index, s.point.position, s.frame.to_world(l));
     };
-    estimate = FanIntegrator(integrand, tolerance).integrate(fans);
+    estimate = FanIntegrator(integrand, tolerance, facts.folded).integrate(fans);
   } else {
     const auto integrand = [&](const Vec3d& l, std::size_t) { return l.z > 0 ? kernel(l) : Rgb{}; };
-    estimate = FanIntegrator(integrand, tolerance).integrate(fans);
+    estimate = FanIntegrator(integrand, tolerance, facts.folded).integrate(fans);
   }
   estimate.evaluations += tried.evaluations;
   // Below 0 there is no light: where a light is seen edge-on to within rounding, its outline's sense is noise.
