@@ -43,6 +43,12 @@ def main():
         loose, tight = (rows(etendue, "--brdf", brdf, "--roughness", "0.3", "--tolerance", t) for t in ("1e-2", "1e-7"))
         good.append(agree(brdf, loose, tight))
         good.append(any(float(r["g"]) > 0 for r in tight))
+    for brdf in ("disney", "frostbite", "gltf-diffuse", "oren-nayar", "gotanda"):
+        tight, fast = (rows(etendue, "--brdf", brdf, "--roughness", "0.8", *more) for more in (("--tolerance", "1e-7"), ("--method", "fast")))
+        good.append(agree(brdf + " fast", tight, fast))
+        good.append(all(apart(a, b) <= 1e-3 * float(a["r"]) for a, b in zip(tight, fast)) and fast[0]["method"] == "ratio")
+        key = [r for r in tight if r["light"] == "key"]
+        good.append(agree(brdf + " frostbite-45", key, rows(etendue, "--brdf", brdf, "--roughness", "0.8", "--lights", "key", "--method", "frostbite-45")))
     # An exact published form, and one that is off and says so.
     edges, structured = (rows(etendue, "--lights", "key", "--method", m) for m in ("hill-heitz-acos", "frostbite-12"))
     key = [r for r in exact if r["light"] == "key"]
