@@ -34,7 +34,10 @@ class OneByOne final : public LightBatch::Shape {
 
 std::shared_ptr<const LightBatch::Shape> batch_of(const Emitter& white) {
   if (std::holds_alternative<SphereEmitter>(white.shape)) return sphere_batch(white);
-  if (std::holds_alternative<PolygonEmitter>(white.shape)) return polygon_batch(white);
+  if (std::holds_alternative<PolygonEmitter>(white.shape)) {
+    if (auto rect = rect_batch(white)) return rect;
+    return polygon_batch(white);
+  }
   return nullptr;
 }
 

@@ -11,8 +11,12 @@
 #include <algorithm>
 #include <array>
 #include <type_traits>
+#include <utility>
 
 #include "eval/light_batch.h"
+
+#undef ETENDUE_INLINE_LAMBDA
+#define ETENDUE_INLINE_LAMBDA __attribute__((always_inline))
 
 HWY_BEFORE_NAMESPACE();
 namespace etendue::eval::HWY_NAMESPACE {
@@ -31,6 +35,10 @@ HWY_INLINE Vector<V> cross(const Vector<V>& a, const Vector<V>& b) {
   return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)), hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
 }
 template <class V>
+HWY_INLINE Vector<V> operator+(const Vector<V>& a, const Vector<V>& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+template <class V>
 HWY_INLINE Vector<V> operator-(const Vector<V>& a, const Vector<V>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
@@ -44,6 +52,16 @@ HWY_INLINE Vector<V> chosen(M mask, const Vector<V>& yes, const Vector<V>& no) {
   return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
 }
 
+// f(0), f(1), ... of constants: loops that are not left to the optimiser, which takes care that what is independent stands side by side.
+template <class F, std::size_t... I>
+HWY_INLINE void each_of(std::index_sequence<I...>, F f) {
+  (f(std::integral_constant<std::size_t, I>()), ...);
+}
+template <std::size_t N, class F>
+HWY_INLINE void each(F f) {
+  each_of(std::make_index_sequence<N>(), f);
+}
+
 template <class D>
 constexpr bool in_floats = std::is_same_v<hn::TFromD<D>, float>;
 template <class D, class V = hn::Vec<D>>
@@ -51,8 +69,46 @@ HWY_INLINE V number(D d, double x) {
   return hn::Set(d, static_cast<hn::TFromD<D>>(x));
 }
 template <class D, class V = hn::Vec<D>>
+HWY_INLINE V number(D d, const Constant& x) {
+  if constexpr (in_floats<D>)
+    return hn::Set(d, x.single);
+  else
+    return hn::Set(d, x.whole);
+}
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vector<V> numbers(D d, const Direction& v) {
+  return {number(d, v.x), number(d, v.y), number(d, v.z)};
+}
+template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vector<V> numbers(D d, const Vec3d& v) {
   return {number(d, v.x), number(d, v.y), number(d, v.z)};
+}
+
+// 1 / sqrt(x) to 12 bits or more.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V near_inverse_sqrt(D d, V x) {
+#if HWY_ARCH_X86 && HWY_TARGET < HWY_EMU128
+  if constexpr (in_floats<D>) return hn::ApproximateReciprocalSqrt(x);
+#endif
+  return hn::Div(number(d, 1), hn::Sqrt(x));
+}
+// Within 4e-7 of it in floats: one step of Newton's.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V inverse_sqrt(D d, V x) {
+  const V guess = near_inverse_sqrt(d, x), half = hn::Mul(x, number(d, 0.5));
+  return hn::Mul(guess, hn::NegMulAdd(hn::Mul(half, guess), guess, number(d, 1.5)));
+}
+
+// 1 / x, within 2e-7 of it in floats.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V inverse(D d, V x) {
+#if HWY_ARCH_X86 && HWY_TARGET < HWY_EMU128
+  if constexpr (in_floats<D>) {
+    const V guess = hn::ApproximateReciprocal(x);
+    return hn::Mul(guess, hn::NegMulAdd(x, guess, number(d, 2)));
+  }
+#endif
+  return hn::Div(number(d, 1), x);
 }
 
 // c0 + c1 x + c2 x^2 + ...
@@ -61,6 +117,33 @@ HWY_INLINE V polynomial(D d, V x, const std::array<double, N>& c) {
   V p = number(d, c[N - 1]);
   for (std::size_t i = N - 1; i-- > 0;) p = hn::MulAdd(p, x, number(d, c[i]));
   return p;
+}
+
+// The same of several x side by side, even and odd powers apart: half as many steps that wait for each other.
+template <std::size_t N, class D, std::size_t C, class V = hn::Vec<D>>
+HWY_INLINE std::array<V, N> polynomials(D d, const std::array<V, N>& x, const std::array<double, C>& c) {
+  std::array<V, N> square, high, low;
+  each<N>([&](auto i) ETENDUE_INLINE_LAMBDA {
+    square[i] = hn::Mul(x[i], x[i]);
+    high[i] = number(d, c[C - 1]);
+    low[i] = number(d, c[C - 2]);
+  });
+  each<C - 2>([&](auto k) ETENDUE_INLINE_LAMBDA {
+    const V next = number(d, c[C - 3 - k]);
+    each<N>([&](auto i) ETENDUE_INLINE_LAMBDA {
+      if constexpr (k % 2 == 0)
+        high[i] = hn::MulAdd(high[i], square[i], next);
+      else
+        low[i] = hn::MulAdd(low[i], square[i], next);
+    });
+  });
+  each<N>([&](auto i) ETENDUE_INLINE_LAMBDA {
+    if constexpr (C % 2 == 0)
+      high[i] = hn::MulAdd(high[i], x[i], low[i]);
+    else
+      high[i] = hn::MulAdd(low[i], x[i], high[i]);
+  });
+  return high;
 }
 
 // (atan(q) / q - 1) / q^2 as a polynomial in z = q^2, q <= tan(22.5 deg), such that atan(q) has a relative error below 1.3e-9 in floats,
@@ -168,8 +251,8 @@ class Doubtful {
   Kernel kernel_;
 };
 
-// kernel(d, point, mask&) gives the projected solid angle of every lane, in floats and in doubles, and marks the lanes that it refuses.
-// `scale`: the light's units a metre. How many points are not finite; they become `where_none`.
+// kernel(d, point, mask&), inlined, gives the projected solid angle of every lane, in floats and in doubles, and marks the lanes that it
+// refuses. `scale`: the light's units a metre. How many points are not finite; they become `where_none`.
 template <class Kernel>
 HWY_INLINE std::size_t at_every_point(const Emitter& white, double scale, const PointBatch& points, std::span<float> out, float where_none,
                                       Kernel kernel) {
@@ -178,37 +261,39 @@ HWY_INLINE std::size_t at_every_point(const Emitter& white, double scale, const 
   const std::size_t lanes = hn::Lanes(d), count = out.size();
   std::size_t without = 0;
   Doubtful<Kernel> doubtful(white, points, scale, out, kernel);
-  const auto over = [&](const std::array<const float*, 6>& in, std::size_t first, std::size_t number, float* to) {
+  const std::array<const float*, 6> all{points.px.data(), points.py.data(), points.pz.data(),
+                                        points.nx.data(), points.ny.data(), points.nz.data()};
+  // The last points stand in a vector of their own.
+  HWY_ALIGN std::array<std::array<float, hn::MaxLanes(d)>, 7> last;
+  for (std::size_t i = 0; i < count; i += lanes) {
+    const std::size_t number = std::min(lanes, count - i);
+    const bool whole = number == lanes;
+    std::array<const float*, 6> in;
+    for (std::size_t k = 0; k < 6; ++k) in[k] = all[k] + i;
+    float* to = out.data() + i;
+    if (HWY_UNLIKELY(!whole)) {
+      for (std::size_t k = 0; k < 6; ++k) {
+        std::fill_n(last[k].begin(), lanes, 1.0f);
+        std::copy_n(in[k], number, last[k].begin());
+        in[k] = last[k].data();
+      }
+      to = last[6].data();
+    }
     const V x = hn::LoadU(d, in[0]), y = hn::LoadU(d, in[1]), z = hn::LoadU(d, in[2]);
     const Vector<V> normal{hn::LoadU(d, in[3]), hn::LoadU(d, in[4]), hn::LoadU(d, in[5])};
-    const auto finite = [&](V a, V b, V c) { return hn::And(hn::IsFinite(a), hn::And(hn::IsFinite(b), hn::IsFinite(c))); };
-    const auto valid = hn::And(finite(x, y, z), finite(normal.x, normal.y, normal.z));
+    // No number less itself is zero, and neither is infinity.
+    const auto part = [](V a) { return hn::Sub(a, a); };
+    const auto valid =
+        hn::Eq(hn::Add(hn::Add(hn::Add(part(x), part(y)), hn::Add(part(z), part(normal.x))), hn::Add(part(normal.y), part(normal.z))),
+               hn::Zero(d));
     const V unit = hn::Set(d, static_cast<float>(scale));
     auto marked = hn::FirstN(d, 0);
     const V value = kernel(d, Point<V>{{hn::Mul(x, unit), hn::Mul(y, unit), hn::Mul(z, unit)}, normal}, marked);
     hn::StoreU(hn::IfThenElse(valid, sane(d, value), hn::Set(d, where_none)), d, to);
-    without += lanes - hn::CountTrue(d, valid);
+    if (HWY_UNLIKELY(!hn::AllTrue(d, valid))) without += lanes - hn::CountTrue(d, valid);
     marked = hn::And(marked, valid);
-    if (HWY_UNLIKELY(!hn::AllFalse(d, marked))) doubtful.add(d, marked, first, number);
-  };
-  const std::array<const float*, 6> all{points.px.data(), points.py.data(), points.pz.data(),
-                                        points.nx.data(), points.ny.data(), points.nz.data()};
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    std::array<const float*, 6> in = all;
-    for (const float*& p : in) p += i;
-    over(in, i, lanes, out.data() + i);
-  }
-  if (i < count) {
-    HWY_ALIGN std::array<std::array<float, hn::MaxLanes(d)>, 7> last;
-    std::array<const float*, 6> in = all;
-    for (std::size_t k = 0; k < 6; ++k) {
-      std::fill_n(last[k].begin(), lanes, 1.0f);
-      std::copy(all[k] + i, all[k] + count, last[k].begin());
-      in[k] = last[k].data();
-    }
-    over(in, i, count - i, last[6].data());
-    std::copy_n(last[6].begin(), count - i, out.data() + i);
+    if (HWY_UNLIKELY(!whole)) std::copy_n(last[6].begin(), number, out.data() + i);
+    if (HWY_UNLIKELY(!hn::AllFalse(d, marked))) doubtful.add(d, marked, i, number);
   }
   doubtful.evaluate();
   return without;

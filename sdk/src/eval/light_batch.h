@@ -20,6 +20,7 @@ class LightBatch::Shape {
 
 // Of a white emitter of each shape; null where its numbers are beyond the kernel.
 std::shared_ptr<const LightBatch::Shape> sphere_batch(const Emitter& white);
+std::shared_ptr<const LightBatch::Shape> rect_batch(const Emitter& white);
 std::shared_ptr<const LightBatch::Shape> polygon_batch(const Emitter& white);
 
 // A coordinate, and as the sum of two floats: what is left of it after a point's coordinate is taken away has all its digits.
@@ -27,6 +28,17 @@ struct Coordinate {
   double whole;
   float high, low;
   explicit Coordinate(double x) : whole(x), high(static_cast<float>(x)), low(static_cast<float>(x - static_cast<double>(high))) {}
+};
+// A constant of a light in both precisions: converted once, not at every point.
+struct Constant {
+  double whole = 0;
+  float single = 0;
+  Constant() = default;
+  Constant(double x) : whole(x), single(static_cast<float>(x)) {}  // NOLINT(google-explicit-constructor): a number is one
+};
+struct Direction {
+  Constant x, y, z;
+  explicit Direction(const Vec3d& v) : x(v.x), y(v.y), z(v.z) {}
 };
 struct Place {
   Coordinate x, y, z;

@@ -54,9 +54,15 @@ HWY_INLINE V over_sphere(D d, const PlacedSphere& light, const Point<V>& point, 
   return hn::IfThenElse(outside, value, light.white.two_sided ? pi_ : zero);
 }
 
+struct SphereKernel {
+  const PlacedSphere& light;
+  template <class D, class V, class M>
+  HWY_INLINE V operator()(D d, const Point<V>& point, M& doubtful) const {
+    return over_sphere(d, light, point, doubtful);
+  }
+};
 std::size_t OverSphere(const PlacedSphere& light, const PointBatch& points, std::span<float> sr, float where_none) {
-  return at_every_point(light.white, light.scale, points, sr, where_none,
-                        [&](auto d, const auto& point, auto& doubtful) { return over_sphere(d, light, point, doubtful); });
+  return at_every_point(light.white, light.scale, points, sr, where_none, SphereKernel{light});
 }
 
 }  // namespace
