@@ -136,7 +136,7 @@ void PointBlocks::divide(Range range, bool moved, int depth) {
   if (pending.count > 0) finish(pending, !moved);
 }
 
-std::span<const PlacedPoint> PointBlocks::blocks_of(const Group& group, std::vector<Range>& blocks) {
+std::span<const PlacedPoint> PointBlocks::runs_of(const Group& group, std::vector<Range>& runs) {
   constexpr int halvings = 6;
   const std::span<PlacedPoint> all(buffer(group.moved) + group.range.first, group.range.count);
   PlacedPoint* const ordered = buffer(!group.moved) + group.range.first;
@@ -144,17 +144,10 @@ std::span<const PlacedPoint> PointBlocks::blocks_of(const Group& group, std::vec
   const Cells cells(Extent(all), halvings);
   for (PlacedPoint& p : all) p.key = (direction_of(p) << halvings) + cells(p);
   sort_by_key(all, ordered, starts_);
-  blocks.clear();
+  runs.clear();
   for (std::uint32_t direction = 0; direction < directions; ++direction) {
-    std::size_t at = starts_[direction << halvings];
-    const std::size_t end = starts_[(direction + 1) << halvings];
-    // Equal parts: none is short.
-    const std::size_t parts = (end - at + longest_block - 1) / longest_block;
-    for (std::size_t part = 0; part < parts; ++part) {
-      const std::size_t number = (end - at) / (parts - part);
-      blocks.push_back({at, number});
-      at += number;
-    }
+    const std::size_t first = starts_[direction << halvings], end = starts_[(direction + 1) << halvings];
+    if (end > first) runs.push_back({first, end - first});
   }
   return {ordered, all.size()};
 }

@@ -1,4 +1,4 @@
-// Points put next to their neighbours: groups of some thousand in a box of space, and within them blocks of alike normals.
+// Points put next to their neighbours: groups of some thousand in a box of space, and within them runs of alike normals.
 #pragma once
 
 #include "etendue/illuminance_batch.h"
@@ -18,7 +18,7 @@ struct PlacedPoint {
 
 class PointBlocks {
  public:
-  static constexpr std::size_t longest_block = 128, longest_group = 2048;
+  static constexpr std::size_t longest_group = 2048;
 
   // Points `first` to `first + count` of the batch, count < 2^32; those that are not finite are left out and listed.
   void arrange(const PointBatch& points, std::size_t first, std::size_t count);
@@ -31,8 +31,8 @@ class PointBlocks {
     bool moved;  // to the other of both buffers
   };
   const std::vector<Group>& groups() const { return groups_; }
-  // The points of a group, ordered by its blocks, which are counted from the group's first point.
-  std::span<const PlacedPoint> blocks_of(const Group& group, std::vector<Range>& blocks);
+  // The points of a group in order: by their normals' runs, counted from the group's first point, and in each neighbour after neighbour.
+  std::span<const PlacedPoint> runs_of(const Group& group, std::vector<Range>& runs);
   const std::vector<std::uint32_t>& not_finite() const { return not_finite_; }
 
  private:

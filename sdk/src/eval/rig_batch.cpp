@@ -1,7 +1,7 @@
-// Points are put next to their neighbours (point_blocks.h). A group of them walks the tree of the lights' bounds, the largest first; what
-// it ends with, lights and parts of the tree, is where each of its blocks begins: bounds for the block, the largest first, evaluated until
-// the bounds of all that is left are within the tolerance at every point. Where half of the points are done they leave the block, and the
-// others go on with closer bounds.
+// Points are put next to their neighbours (point_blocks.h). A run of them walks the tree of the lights' bounds; what it ends with, lights
+// and parts of the tree, is where each of its blocks begins. There bounds are drawn closer and lights evaluated, what leaves the largest
+// error first, until the bounds of all that is left are within the tolerance at every point. Where half of the points are done they leave
+// the block, and the others go on with closer bounds. (Greedy refinement by bounds: Walter et al. 2005, Lightcuts.)
 #include "etendue/rig_batch.h"
 
 #include <algorithm>
@@ -18,25 +18,30 @@
 namespace etendue::eval {
 namespace {
 
-constexpr std::size_t block_size = PointBlocks::longest_block;
+constexpr std::size_t block_size = 128;
 constexpr std::size_t points_at_once = std::size_t{1} << 20;
 // Of LightBatch: of the value, and of the luminance times the solid angle, which is at most 1 there.
 constexpr double batch_error = 1e-5, batch_error_of_reach = 2e-6;
 // Half a unit in the last place, which every term adds to a sum, and its own product and factor to it.
 constexpr double float_rounding = 6e-8, double_rounding = 1.2e-16;
-// Up to this share of the tolerance a group leaves parts of the tree whole.
-constexpr double share_of_parts = 0.1;
+// Up to this share of the tolerance a run leaves parts of the tree whole.
+constexpr double share_of_parts = 0.2;
+// Bounds cost much less than an evaluation that they may spare: a light's error counts for so much beside those of what has bounds yet to
+// be drawn closer.
+constexpr double bounds_first = 0.1;
 
 struct Node {
   LightBound bound;
   std::uint32_t lights, light;  // how many; of one, which
   std::uint32_t left, right;    // 0: one light
+  Rgb tint;                     // of their light, 1 in the largest channel of each
+  double spread;                // no channel of a light is further from the tint
 };
+double largest(const Rgb& c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
 
 struct Light {
   std::optional<LightBatch> batch;  // none: one point after the other, in double
   Vec3f colour;
-  Rgb tint;  // 1 in the largest channel
 };
 // One without an upper bound, though perhaps with one of where it is seen.
 struct Unbounded {
@@ -44,26 +49,72 @@ struct Unbounded {
   std::optional<LightBound> place;
 };
 
-// What is not decided yet: one light or a part of the tree. The middle of its bounds, which stands for a light that is seen for certain,
-// and how far it is off at most; for anything else stands nothing.
+// What is not decided yet: one light or a part of the tree. Where all of it is seen for certain, the middle of its bounds stands for it,
+// else nothing; and how far that is off at most, in any channel.
 struct Entry {
   double middle, error, reach;
+  double rank;  // what is done first
   std::uint32_t node;
+  std::uint32_t boxes;  // of which of the boxes its bounds are: they hold within
 
   double most() const { return middle + error; }
 };
-bool smaller(const Entry& a, const Entry& b) { return a.error < b.error; }
-Entry take_largest(std::vector<Entry>& heap) {
-  std::pop_heap(heap.begin(), heap.end(), smaller);
-  const Entry largest = heap.back();
-  heap.pop_back();
-  return largest;
-}
-double sum_of(std::span<const Entry> entries) {
-  double sum = 0;
-  for (const Entry& e : entries) sum += e.error;
-  return sum;
-}
+
+// A heap, the largest rank first, and sums over it that are kept up to date as entries come and go.
+class Undecided {
+ public:
+  bool empty() const { return heap_.empty(); }
+  double error() const { return unlimited_ > 0 ? Box::infinite : error_ + drift_; }
+  double standing() const { return standing_; }  // of the middles
+  const Rgb& middle() const { return middle_; }  // with their tints
+  std::uint64_t lights() const { return lights_; }
+
+  void clear() {
+    heap_.clear();
+    reset();
+  }
+  void push(const Entry& e, const Node& node) {
+    heap_.push_back(e);
+    std::push_heap(heap_.begin(), heap_.end(), lower);
+    count(e, node, 1);
+    lights_ += node.lights;
+  }
+  const Entry& largest() const { return heap_.front(); }
+  void pop(const Node& node) {
+    const Entry e = heap_.front();
+    std::pop_heap(heap_.begin(), heap_.end(), lower);
+    heap_.pop_back();
+    count(e, node, -1);
+    lights_ -= node.lights;
+    if (heap_.empty()) reset();
+  }
+
+ private:
+  static bool lower(const Entry& a, const Entry& b) { return a.rank < b.rank; }
+  void count(const Entry& e, const Node& node, int sign) {
+    if (!std::isfinite(e.error)) {
+      sign > 0 ? ++unlimited_ : --unlimited_;
+      return;
+    }
+    drift_ += double_rounding * (error_ + e.error + standing_ + e.middle);
+    error_ += sign * e.error;
+    standing_ += sign * e.middle;
+    middle_ += node.tint * (sign * e.middle);
+  }
+  void reset() {
+    error_ = drift_ = standing_ = 0;
+    middle_ = {};
+    unlimited_ = 0;
+    lights_ = 0;
+  }
+
+  std::vector<Entry> heap_;
+  double error_ = 0, standing_ = 0;
+  double drift_ = 0;  // more than what both are rounded by
+  Rgb middle_;
+  std::size_t unlimited_ = 0;  // whose error is infinite
+  std::uint64_t lights_ = 0;
+};
 
 // Boxes of positions in the world, as wide as sums with the origin may be rounded, and of normals.
 struct Boxes {
@@ -124,6 +175,12 @@ float as_float(double x) {
   return static_cast<float>(std::clamp(x, -most, most));
 }
 
+Rgb tint_of(const Emitter& e) {
+  const auto* punctual = std::get_if<PunctualEmitter>(&e.shape);
+  const Rgb colour = punctual != nullptr ? punctual->intensity : e.radiance;
+  return largest(colour) > 0 ? colour / largest(colour) : Rgb{};
+}
+
 bool below_horizon(const DistantEmitter& e, const Box& normals) {
   double highest = 0;
   for (int i = 0; i < 3; ++i) highest += std::max(normals.low[i] * e.towards[i], normals.high[i] * e.towards[i]);
@@ -144,9 +201,10 @@ struct RigBatch::Prepared {
 
 struct RigBatch::Workspace::Parts {
   PointBlocks points;
-  std::vector<PointBlocks::Range> blocks;
-  std::vector<Entry> found, parts;  // of a group: what it ends with, and parts of the tree on the way there
-  std::vector<Entry> open;          // of a block: a heap
+  std::vector<PointBlocks::Range> runs;
+  Undecided parts;   // of the tree, on a run's way through it
+  Undecided of_run;  // where it ends
+  Undecided open;    // of a block
   Block block, again;
   Sums<float> sums;
   Sums<double> exact;
@@ -156,8 +214,9 @@ struct RigBatch::Workspace::Parts {
 // Halves of equal number across the longest edge of the box of the lights' middles.
 std::uint32_t RigBatch::Prepared::build(std::span<const LightBound> bounds, std::span<std::uint32_t> which) {
   const auto at = static_cast<std::uint32_t>(nodes.size());
-  nodes.push_back({bounds[which[0]], static_cast<std::uint32_t>(which.size()), which[0], 0, 0});
-  if (which.size() == 1) return at;
+  const auto lights_here = static_cast<std::uint32_t>(which.size());
+  nodes.push_back({bounds[which[0]], lights_here, which[0], 0, 0, tint_of(emitters[which[0]]), 0});
+  if (lights_here == 1) return at;
   const auto middle = [&](std::uint32_t i) { return bounds[i].places.low * 0.5 + bounds[i].places.high * 0.5; };
   Box middles;
   for (const std::uint32_t i : which) middles.add(middle(i));
@@ -167,9 +226,14 @@ std::uint32_t RigBatch::Prepared::build(std::span<const LightBound> bounds, std:
   std::nth_element(which.begin(), which.begin() + static_cast<std::ptrdiff_t>(half), which.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return middle(a)[axis] < middle(b)[axis]; });
   const std::uint32_t left = build(bounds, which.first(half)), right = build(bounds, which.subspan(half));
-  LightBound both = nodes[left].bound;
-  both.add(nodes[right].bound);
-  nodes[at] = {both, static_cast<std::uint32_t>(which.size()), 0, left, right};
+  const Node &a = nodes[left], &b = nodes[right];
+  Node both{a.bound, lights_here, 0, left, right, a.tint, 0};
+  both.bound.add(b.bound);
+  const double emitted_a = a.bound.around + a.bound.facing, emitted = both.bound.around + both.bound.facing;
+  const double share = emitted > 0 ? emitted_a / emitted : 0.5;
+  both.tint = a.tint * share + b.tint * (1 - share);
+  both.spread = std::max(a.spread + largest(a.tint - both.tint), b.spread + largest(b.tint - both.tint));
+  nodes[at] = both;
   return at;
 }
 
@@ -184,10 +248,6 @@ RigBatch::RigBatch(std::vector<Emitter> emitters) {
       light.batch = std::move(*batch);
       light.colour = vec_cast<float>(e.radiance);
     }
-    const auto* punctual = std::get_if<PunctualEmitter>(&e.shape);
-    const Rgb colour = punctual != nullptr ? punctual->intensity : e.radiance;
-    const double largest = std::max({std::abs(colour.x), std::abs(colour.y), std::abs(colour.z)});
-    light.tint = largest > 0 ? colour / largest : Rgb{};
     prepared->lights.push_back(std::move(light));
     prepared->out_of_gamut = prepared->out_of_gamut || std::min({e.radiance.x, e.radiance.y, e.radiance.z}) < 0;
     if (const std::optional<LightBound> bound = light_bound(e)) {
@@ -200,9 +260,9 @@ RigBatch::RigBatch(std::vector<Emitter> emitters) {
       prepared->unbounded.push_back({i, light_bound(plain)});
     }
   }
+  prepared->emitters = std::move(emitters);
   prepared->nodes.reserve(2 * bounded.size());
   if (!bounded.empty()) prepared->build(bounds, bounded);
-  prepared->emitters = std::move(emitters);
   prepared_ = std::move(prepared);
 }
 RigBatch::~RigBatch() = default;
@@ -224,32 +284,35 @@ struct RigBatch::Run {
   std::span<float> bound;
   RigCounts& counts;
 
+  std::uint32_t boxes = 0;  // counts those of runs and blocks
+
   // Of a block.
-  double rest = 0;     // the sum of the bounds of what is open, as it is kept up to date: to a few digits
   double reached = 0;  // what no point has more of from what is evaluated
   double reach = 0;    // cd/m2 times solid angle of the same
   std::size_t terms = 0;
   bool repeating = false;  // in double
 
-  Entry entry(std::uint32_t node, const Boxes& boxes) {
+  Entry entry(std::uint32_t node, const Boxes& where, bool of_block = true) {
     ++counts.bounds;
     const Node& n = rig.nodes[node];
-    const Bound b = bound_at(n.bound, boxes.positions, boxes.normals);
-    if (n.left != 0 || !(b.least > 0)) return {0, b.most, b.reach, node};
-    return {0.5 * (b.most + b.least), 0.5 * (b.most - b.least), b.reach, node};
+    const double rank = of_block && n.left == 0 ? bounds_first : 1;
+    const Bound b = bound_at(n.bound, where.positions, where.normals);
+    const double error = 0.5 * (b.most - b.least) + n.spread * b.most;
+    if (!(b.least > 0 && error < b.most)) return {0, b.most, b.reach, rank * b.most, node, boxes};
+    return {0.5 * (b.most + b.least), error, b.reach, rank * error, node, boxes};
   }
   bool is_light(const Entry& e) const { return rig.nodes[e.node].left == 0; }
   void unseen(const Entry& e, std::size_t points) {
     if (!repeating) counts.skipped_unseen += rig.nodes[e.node].lights * points;
   }
 
-  void group(std::span<const PlacedPoint> points);
+  void walk(std::span<const PlacedPoint> points);
   void blocks(std::span<const PlacedPoint> points);
 
   template <class T>
   void solve(Sums<T>& sums);
-  void open(std::span<const Entry> entries);
   void push(const Entry& e);
+  void settle();
   template <class T>
   void evaluate(std::uint32_t light, double most, double reach_of_it, Sums<T>& sums);
   template <class T>
@@ -261,73 +324,61 @@ struct RigBatch::Run {
 
   // e = part P + rest_of_error is what the error may be where the sum is P.
   double part = 0, rest_of_error = 0;
-  Rgb middle{};  // the sum of what stands for the lights that are open
 };
 
-void RigBatch::Run::group(std::span<const PlacedPoint> points) {
-  const Boxes boxes(points, origin);
-  double lights = 0, parts = 0;
-  const auto offer = [&](std::uint32_t node) {
-    const Entry e = entry(node, boxes);
-    if (!(e.most() > 0)) return unseen(e, points.size());
-    if (is_light(e)) {
-      work.found.push_back(e);
-      if (std::isfinite(e.error)) lights += e.most();
-      return;
-    }
-    work.parts.push_back(e);
-    std::push_heap(work.parts.begin(), work.parts.end(), smaller);
-    parts += e.error;
-  };
-  work.found.clear();
+void RigBatch::Run::walk(std::span<const PlacedPoint> points) {
+  const Boxes here(points, origin);
+  ++boxes;
+  work.of_run.clear();
   work.parts.clear();
+  double lights = 0;
+  const auto offer = [&](std::uint32_t node) {
+    const Entry e = entry(node, here, false);
+    if (!(e.most() > 0)) return unseen(e, points.size());
+    const bool one = is_light(e);
+    (one ? work.of_run : work.parts).push(e, rig.nodes[node]);
+    if (one && std::isfinite(e.error)) lights += e.most();
+  };
   if (!rig.nodes.empty()) offer(0);
-  while (!work.parts.empty() && !(parts <= share_of_parts * std::max(absolute, relative * lights))) {
-    const Entry e = take_largest(work.parts);
-    parts = std::isfinite(e.error) ? parts - e.error : sum_of(work.parts);
-    offer(rig.nodes[e.node].left);
-    offer(rig.nodes[e.node].right);
+  while (!work.parts.empty() && !(work.parts.error() <= share_of_parts * std::max(absolute, relative * (lights + work.parts.standing())))) {
+    const Node& node = rig.nodes[work.parts.largest().node];
+    work.parts.pop(node);
+    offer(node.left);
+    offer(node.right);
   }
-  work.found.insert(work.found.end(), work.parts.begin(), work.parts.end());
+  while (!work.parts.empty()) {
+    const Entry e = work.parts.largest();
+    work.parts.pop(rig.nodes[e.node]);
+    work.of_run.push(e, rig.nodes[e.node]);
+  }
 }
 
+// Equal parts: none is short.
 void RigBatch::Run::blocks(std::span<const PlacedPoint> points) {
   Block& block = work.block;
-  for (const PointBlocks::Range& range : work.blocks) {
+  for (std::size_t parts = (points.size() + block_size - 1) / block_size; parts > 0; --parts) {
+    const std::size_t count = points.size() / parts;
     block.count = 0;
     work.again.count = 0;
-    for (const PlacedPoint& p : points.subspan(range.first, range.count)) block.add(p);
-    repeating = false;
+    for (const PlacedPoint& p : points.first(count)) block.add(p);
+    points = points.subspan(count);
     solve(work.sums);
     if (work.again.count == 0) continue;
     std::swap(block, work.again);
     repeating = true;
     solve(work.exact);
+    repeating = false;
   }
 }
 
 void RigBatch::Run::push(const Entry& e) {
   if (!(e.most() > 0)) return unseen(e, work.block.count);
-  work.open.push_back(e);
-  std::push_heap(work.open.begin(), work.open.end(), smaller);
-  rest += e.error;
+  work.open.push(e, rig.nodes[e.node]);
 }
 
-void RigBatch::Run::open(std::span<const Entry> entries) {
-  std::size_t kept = 0;
-  // `entries` may be those that are open.
-  work.open.resize(std::max(work.open.size(), entries.size()));
-  for (const Entry& before : entries) {
-    const Entry e = entry(before.node, work.block.boxes);
-    if (!(e.most() > 0)) {
-      unseen(e, work.block.count);
-      continue;
-    }
-    work.open[kept++] = e;
-  }
-  work.open.resize(kept);
-  std::make_heap(work.open.begin(), work.open.end(), smaller);
-  rest = sum_of(work.open);
+void RigBatch::Run::settle() {
+  work.block.settle(origin);
+  ++boxes;
 }
 
 // `most` and `reach_of_it`: its bounds, infinite where there are none.
@@ -350,15 +401,15 @@ void RigBatch::Run::evaluate(std::uint32_t light, double most, double reach_of_i
       return;
     }
   }
-  double largest = 0;
+  double most_here = 0;
   for (std::size_t i = 0; i < block.count; ++i) {
     const Rgb one = eval::illuminance(rig.emitters[light], block.position(i, origin), block.normal(i));
     sums.r[i] += static_cast<T>(one.x);
     sums.g[i] += static_cast<T>(one.y);
     sums.b[i] += static_cast<T>(one.z);
-    largest = std::max({largest, std::abs(one.x), std::abs(one.y), std::abs(one.z)});
+    most_here = std::max(most_here, largest(one));
   }
-  reached += largest;
+  reached += most_here;
 }
 
 template <class T>
@@ -386,17 +437,14 @@ std::size_t RigBatch::Run::judge(Sums<T>& sums) {
   constexpr bool in_floats = std::is_same_v<T, float>;
   const auto n = static_cast<double>(terms);
   part = float_rounding + double_rounding * n;  // of the answer, and of the sum
-  rest = sum_of(work.open);
-  rest_of_error = rest * (1 + double_rounding * static_cast<double>(work.open.size()));
-  middle = {};
-  for (const Entry& e : work.open)
-    if (e.middle > 0) middle += rig.lights[rig.nodes[e.node].light].tint * e.middle;
+  rest_of_error = work.open.error();
+  const Rgb& middle = work.open.middle();
   if constexpr (in_floats) {
     part = batch_error + float_rounding * (n + 3);
     rest_of_error += batch_error_of_reach * reach;
   }
   if (rig.out_of_gamut) {
-    rest_of_error += part * (reached + std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)}));
+    rest_of_error += part * (reached + largest(middle));
     part = 0;
   }
   const double s = rest_of_error, slope = relative - part * (1 + relative);
@@ -418,6 +466,7 @@ std::size_t RigBatch::Run::judge(Sums<T>& sums) {
 template <class T>
 void RigBatch::Run::leave(Sums<T>& sums, bool all) {
   Block& block = work.block;
+  const Rgb& middle = work.open.middle();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < block.count; ++i) {
     if (all || sums.done[i]) {
@@ -431,8 +480,7 @@ void RigBatch::Run::leave(Sums<T>& sums, bool all) {
     sums.r[kept] = sums.r[i], sums.g[kept] = sums.g[i], sums.b[kept] = sums.b[i];
     ++kept;
   }
-  if (!repeating)
-    for (const Entry& e : work.open) counts.skipped_small += rig.nodes[e.node].lights * (block.count - kept);
+  if (!repeating) counts.skipped_small += work.open.lights() * (block.count - kept);
   block.count = kept;
 }
 
@@ -441,12 +489,12 @@ void RigBatch::Run::solve(Sums<T>& sums) {
   Block& block = work.block;
   reached = reach = 0;
   terms = 0;
-  block.settle(origin);
+  settle();
   sums.r.fill(0), sums.g.fill(0), sums.b.fill(0);
   evaluate_unbounded(sums);
-  open(work.found);
+  work.open = work.of_run;
   while (block.count > 0) {
-    if (work.open.empty() || rest <= std::max(absolute, relative * reached)) {
+    if (work.open.empty() || work.open.error() <= std::max(absolute, relative * (reached + work.open.standing()))) {
       const std::size_t done = judge(sums);
       if (work.open.empty()) {
         // Floats are not enough for the others.
@@ -457,18 +505,20 @@ void RigBatch::Run::solve(Sums<T>& sums) {
       if (2 * done >= block.count) {
         leave(sums, false);
         if (block.count == 0) return;
-        block.settle(origin);
-        open(work.open);
+        settle();
         continue;
       }
     }
-    const Entry e = take_largest(work.open);
-    rest = std::isfinite(e.error) ? rest - e.error : sum_of(work.open);
-    if (is_light(e)) {
-      evaluate(rig.nodes[e.node].light, e.most(), e.reach, sums);
+    const Entry e = work.open.largest();
+    const Node& node = rig.nodes[e.node];
+    work.open.pop(node);
+    if (e.boxes != boxes) {
+      push(entry(e.node, block.boxes));
+    } else if (is_light(e)) {
+      evaluate(node.light, e.most(), e.reach, sums);
     } else {
-      push(entry(rig.nodes[e.node].left, block.boxes));
-      push(entry(rig.nodes[e.node].right, block.boxes));
+      push(entry(node.left, block.boxes));
+      push(entry(node.right, block.boxes));
     }
   }
 }
@@ -494,9 +544,11 @@ Result<RigCounts> RigBatch::illuminance(const PointBatch& points, const Toleranc
     }
     counts.without += work.points.not_finite().size();
     for (const PointBlocks::Group& group : work.points.groups()) {
-      const std::span<const PlacedPoint> ordered = work.points.blocks_of(group, work.blocks);
-      run.group(ordered);
-      run.blocks(ordered);
+      const std::span<const PlacedPoint> ordered = work.points.runs_of(group, work.runs);
+      for (const PointBlocks::Range& r : work.runs) {
+        run.walk(ordered.subspan(r.first, r.count));
+        run.blocks(ordered.subspan(r.first, r.count));
+      }
     }
   }
   return counts;
