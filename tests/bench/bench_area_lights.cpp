@@ -22,6 +22,22 @@ using protocol::Kind;
 
 constexpr std::size_t count = 4096;
 
+EmitterShape shape_of(Kind kind) {
+  switch (kind) {
+    case Kind::sphere:
+      return SphereEmitter{{}, 1};
+    case Kind::disk:
+      return DiskEmitter{{}, {0, 0, 1}, {1, 0, 0}, 1};
+    case Kind::capsule:
+      return TubeEmitter{{-0.5, 0, 0}, {0.5, 0, 0}, 0.07, Caps::round};
+    default:
+      return protocol::rectangle({}, {1, 0, 0}, {0, 1, 0}, 1, 0.7);
+  }
+}
+const char* name_of(Kind kind) {
+  return kind == Kind::sphere ? "sphere" : kind == Kind::disk ? "disk" : kind == Kind::capsule ? "capsule" : "rectangle";
+}
+
 // One light, points all around at the protocol's distances and with its normals: those above its horizon or those that it crosses.
 struct Case {
   Emitter light;
@@ -29,21 +45,31 @@ struct Case {
   std::vector<float> px, py, pz, nx, ny, nz, sr;
   PointBatch batch() const { return {px, py, pz, nx, ny, nz, {}}; }
 
+  // A point light, facing and turned away.
+  Case() : sr(count) {
+    protocol::Random random(11);
+    light.shape = PunctualEmitter{{}, {}, {1, 1, 1}, PointShape{}};
+    prepared = *LightBatch::of(light);
+    while (px.size() < count) add(random.direction() * random.uniform(0.5, 6), random.direction());
+  }
   Case(Kind kind, bool mixed) : sr(count) {
     protocol::Random random(11);
-    light = protocol::white(kind == Kind::sphere ? EmitterShape(SphereEmitter{{}, 1})
-                                                 : EmitterShape(protocol::rectangle({}, {1, 0, 0}, {0, 1, 0}, 1, 0.7)));
+    light = protocol::white(shape_of(kind));
     prepared = *LightBatch::of(light);
     while (px.size() < count) {
-      const double nearest = kind == Kind::sphere ? 1.05 : 0.5, farthest = kind == Kind::sphere ? 6 : 3;
-      Vec3d p = random.direction() * random.uniform(nearest, farthest);
-      if (kind != Kind::sphere) p.z = std::max(std::abs(p.z), 0.02);
+      const bool round = kind == Kind::sphere || kind == Kind::disk;
+      Vec3d p = random.direction() * random.uniform(kind == Kind::sphere ? 1.05 : 0.5, round ? 6 : 3);
+      if (kind == Kind::rect || kind == Kind::disk) p.z = std::max(std::abs(p.z), kind == Kind::disk ? 0.04 : 0.02);
+      if (kind == Kind::capsule && std::hypot(p.y, p.z) < 0.0735) continue;
       const Vec3d n = random.direction();
       const double low = protocol::lowest(light.shape, p, n), high = -protocol::lowest(light.shape, p, -n);
       if (high <= 0 || (low < 0) != (mixed && px.size() % 2 == 0)) continue;
-      px.push_back(static_cast<float>(p.x)), py.push_back(static_cast<float>(p.y)), pz.push_back(static_cast<float>(p.z));
-      nx.push_back(static_cast<float>(n.x)), ny.push_back(static_cast<float>(n.y)), nz.push_back(static_cast<float>(n.z));
+      add(p, n);
     }
+  }
+  void add(const Vec3d& p, const Vec3d& n) {
+    px.push_back(static_cast<float>(p.x)), py.push_back(static_cast<float>(p.y)), pz.push_back(static_cast<float>(p.z));
+    nx.push_back(static_cast<float>(n.x)), ny.push_back(static_cast<float>(n.y)), nz.push_back(static_cast<float>(n.z));
   }
   Vec3d position(std::size_t i) const { return {px[i], py[i], pz[i]}; }
   Vec3d normal(std::size_t i) const { return normalised(Vec3d{nx[i], ny[i], nz[i]}); }
@@ -70,28 +96,31 @@ struct Case {
   }
 };
 
+void add_rows(bench::Bench& table, const std::string& name, Case& c) {
+  bench::Task& task = table.task(name, count);
+  task.contender("one by one, in double", bench::Kind::anchor, "", [&c] { c.one_by_one(); });
+  task.contender("in vectors", bench::Kind::ours, c.error(), [&c] { c.in_vectors(); });
+  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    task.contender(fmt::format("  {}", hwy::TargetName(target)), bench::Kind::ours, "", [&c, target] {
+      hwy::SetSupportedTargetsForTest(target);
+      c.in_vectors();
+      hwy::SetSupportedTargetsForTest(0);
+    });
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   bench::Bench table;
   std::vector<std::unique_ptr<Case>> cases;
-  for (const Kind kind : {Kind::rect, Kind::sphere}) {
+  for (const Kind kind : {Kind::rect, Kind::sphere, Kind::disk, Kind::capsule}) {
     for (const bool mixed : {false, true}) {
       cases.push_back(std::make_unique<Case>(kind, mixed));
-      Case& c = *cases.back();
-      bench::Task& task = table.task(fmt::format("{}, {}", kind == Kind::rect ? "rectangle" : "sphere",
-                                                 mixed ? "half of them cut by the horizon" : "above the horizon"),
-                                     count);
-      task.contender("one by one, in double", bench::Kind::anchor, "", [&c] { c.one_by_one(); });
-      task.contender("in vectors", bench::Kind::ours, c.error(), [&c] { c.in_vectors(); });
-      for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        task.contender(fmt::format("  {}", hwy::TargetName(target)), bench::Kind::ours, "", [&c, target] {
-          hwy::SetSupportedTargetsForTest(target);
-          c.in_vectors();
-          hwy::SetSupportedTargetsForTest(0);
-        });
-      }
+      add_rows(table, fmt::format("{}, {}", name_of(kind), mixed ? "half of them cut by the horizon" : "above the horizon"), *cases.back());
     }
   }
+  cases.push_back(std::make_unique<Case>());
+  add_rows(table, "point light", *cases.back());
   return table.run(argc, argv);
 }

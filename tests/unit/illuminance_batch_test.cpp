@@ -34,6 +34,8 @@ struct Points {
 
 Vec3d centre_of(const EmitterShape& shape) {
   if (const auto* s = std::get_if<SphereEmitter>(&shape)) return s->centre;
+  if (const auto* d = std::get_if<DiskEmitter>(&shape)) return d->centre;
+  if (const auto* t = std::get_if<TubeEmitter>(&shape)) return (t->a + t->b) * 0.5;
   const auto& v = std::get<PolygonEmitter>(shape).vertices;
   Vec3d sum;
   for (const Vec3d& p : v) sum += p / static_cast<double>(v.size());
@@ -75,7 +77,7 @@ std::vector<float> evaluated(const Emitter& light, const Points& points) {
 // The protocol of the facts page: one light a point.
 TEST(IlluminanceBatch, IsWithinItsBoundAboveAndAcrossTheHorizon) {
   on_each_instruction_set([] {
-    for (const Kind kind : {Kind::sphere, Kind::rect}) {
+    for (const Kind kind : {Kind::sphere, Kind::rect, Kind::disk, Kind::capsule}) {
       for (const bool above : {true, false}) {
         Random random(5);
         Worst worst;
@@ -124,28 +126,88 @@ TEST(IlluminanceBatch, PolygonsOfAnyShapeAtPointsAllAround) {
 // Distances from 1e-5 to 1e6 of the size, sizes from a millimetre to a kilometre, far from the world's origin.
 TEST(IlluminanceBatch, HoldsAtEveryScale) {
   on_each_instruction_set([] {
-    for (const Kind kind : {Kind::sphere, Kind::rect}) {
+    for (const Kind kind : {Kind::sphere, Kind::rect, Kind::disk, Kind::capsule}) {
       Random random(7);
       Worst worst;
       for (int i = 0; i < 4000; ++i) {
         const double size = random.log_uniform(1e-3, 1e3), distance = size * random.log_uniform(1e-5, 1e6);
         const Vec3d towards = random.direction();
+        const Basis b = basis_around(random.direction());
         Points points;
         points.origin = random.direction() * random.uniform(0, 1e6);
         points.add(points.origin, random.direction());
         Emitter light;
         if (kind == Kind::sphere) {
           light = protocol::white(SphereEmitter{points.origin + towards * (size + distance), size});
-        } else {
-          const Basis b = basis_around(random.direction());
+        } else if (kind == Kind::rect) {
           light = protocol::white(
               protocol::rectangle(points.origin + towards * distance, b.tangent, b.bitangent, size, size * random.uniform(0.1, 1)));
-          light.two_sided = true;
+        } else if (kind == Kind::capsule) {
+          // From a ball to a thin rod, the point anywhere beside it or beyond its ends.
+          const Vec3d half = b.normal * (0.5 * size * random.log_uniform(0.1, 100));
+          const double along = random.uniform(-1, 1), beyond = along < 0 ? 0 : random.uniform(0, 1);
+          const Vec3d out = normalised(b.tangent * (1 - beyond) + b.normal * beyond) * (size + distance);
+          const Vec3d middle = points.origin + half * (beyond > 0 ? -1 : along) - out;
+          light = protocol::white(TubeEmitter{middle - half, middle + half, size, Caps::round});
+        } else {
+          // Half of them close to the rim.
+          const Vec3d to_rim = b.tangent * (i % 2 == 0 ? size : 0);
+          light = protocol::white(DiskEmitter{points.origin + towards * distance + to_rim, b.normal, b.tangent, size});
         }
+        light.two_sided = kind != Kind::sphere;
         worst.judge(light, points, evaluated(light, points));
       }
       EXPECT_LE(worst.ratio, 1) << static_cast<int>(kind);
     }
+  });
+}
+
+// Of lights without area the bound is relative to what the intensity on their axis gives a surface facing them, without a window.
+class WorstPunctual {
+ public:
+  void judge(const Emitter& light, const Points& points) {
+    const std::vector<float> found = evaluated(light, points);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const Vec3d p = points.position(i);
+      double most = 1;
+      if (const auto* e = std::get_if<PunctualEmitter>(&light.shape)) most = 1 / dot(e->position - p, e->position - p);
+      const double expected = protocol::lux_at(light, p, points.normal(i));
+      ASSERT_TRUE(std::isfinite(found[i])) << i;
+      ratio = std::max(ratio, std::abs(static_cast<double>(found[i]) - expected) / (1e-5 * expected + 2e-6 * most));
+      lit += expected > 0 ? 1 : 0;
+    }
+  }
+  double ratio = 0;
+  int lit = 0;
+};
+
+// Cones and frusta from a degree to the half space, with hard edges and soft ones, windows near their range.
+TEST(IlluminanceBatch, PunctualAndDistantLightsHoldTheirBound) {
+  on_each_instruction_set([] {
+    Random random(9);
+    WorstPunctual worst;
+    for (int i = 0; i < 600; ++i) {
+      Emitter light;
+      const double size = random.log_uniform(1e-3, 1e3), outer = random.log_uniform(0.01, pi / 2);
+      const Basis b = basis_around(random.direction());
+      Points points;
+      points.origin = random.direction() * random.uniform(0, 1e6);
+      PunctualEmitter lamp{points.origin + random.direction() * size, {{b.tangent, b.bitangent, b.normal}, {}}, {1, 1, 1}, PointShape{}};
+      if (i % 4 == 1) lamp.shape = SpotShape{outer * (i % 8 == 1 ? 1 : random.uniform(0, 1)), outer};
+      if (i % 4 == 2) lamp.shape = FrustumShape{1.9 * outer, random.uniform(0.01, 3)};
+      light.shape = lamp;
+      if (i % 3 != 0) light.window = {i % 3 == 1 ? Falloff::frostbite : Falloff::gltf, 3 * size};
+      if (i % 4 == 3) light.shape = DistantEmitter{random.direction(), {1, 1, 1}, i % 8 == 3 ? 0 : 0.9 * outer};
+      const double width = i % 4 == 0 ? pi : 1.2 * outer;
+      for (int k = 0; k < 37; ++k) {
+        const double turn = random.uniform(0, 2 * pi), off = random.uniform(0, width), far = random.log_uniform(1e-2, 10);
+        const Vec3d along = -b.normal * std::cos(off) + (b.tangent * std::cos(turn) + b.bitangent * std::sin(turn)) * std::sin(off);
+        points.add(lamp.position + along * (size * std::min(far, k % 3 == 0 ? 3 - 1e-3 * far : 10)), random.direction());
+      }
+      worst.judge(light, points);
+    }
+    EXPECT_LE(worst.ratio, 1);
+    EXPECT_GT(worst.lit, 3000);
   });
 }
 
@@ -170,18 +232,38 @@ TEST(IlluminanceBatch, BoundariesHaveTheirAnswers) {
     EXPECT_EQ(at(protocol::white(protocol::rectangle({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 0, 1))), 0);
     EXPECT_EQ(at(protocol::white(protocol::rectangle({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 1, 1))), 0);
     EXPECT_EQ(at(protocol::white(SphereEmitter{{0, 0, -2}, 1})), 0);
+    // A disk: straight above, in its plane, turned away, of no size; half of it above the horizon, seen from over its middle.
+    EXPECT_NEAR(at(protocol::white(DiskEmitter{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, 1})), pi / 2, 1e-6);
+    EXPECT_EQ(at(protocol::white(DiskEmitter{{0.5, 0, 0}, {0, 0, -1}, {1, 0, 0}, 1})), 0);
+    EXPECT_EQ(at(protocol::white(DiskEmitter{{0, 0, 1}, {0, 0, 1}, {1, 0, 0}, 1})), 0);
+    EXPECT_EQ(at(protocol::white(DiskEmitter{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, 0})), 0);
+    const Emitter upright = protocol::white(DiskEmitter{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, 1});
+    EXPECT_NEAR(at(upright), protocol::lux_at(upright, {}, {0, 0, 1}), 1e-6);
+    // A capsule: inside, dark or bright all around; on its axis beyond its end, a sphere; without length too; cut lengthwise, half.
+    Emitter pill = protocol::white(TubeEmitter{{-1, 0, 0.1}, {1, 0, 0.1}, 0.5, Caps::round});
+    EXPECT_EQ(at(pill), 0);
+    pill.two_sided = true;
+    EXPECT_NEAR(at(pill), pi, 1e-6);
+    const double ball_above = pi * 0.25 / 4;
+    EXPECT_NEAR(at(protocol::white(TubeEmitter{{0, 0, 2}, {0, 0, 5}, 0.5, Caps::round})), ball_above, 1e-6);
+    EXPECT_NEAR(at(protocol::white(TubeEmitter{{0, 0, 2}, {0, 0, 2}, 0.5, Caps::round})), ball_above, 1e-6);
+    EXPECT_EQ(at(protocol::white(TubeEmitter{{0, 0, 2}, {0, 0, 5}, 0, Caps::round})), 0);
+    const Emitter lying = protocol::white(TubeEmitter{{1, -1, 0}, {1, 1, 0}, 0.25, Caps::round});
+    EXPECT_NEAR(at(lying), protocol::lux_at(lying, {}, {0, 0, 1}), 1e-6);
+    const Emitter ahead = protocol::white(TubeEmitter{{1, 0, 0}, {3, 0, 0}, 0.25, Caps::round});
+    EXPECT_NEAR(at(ahead), protocol::lux_at(ahead, {}, {0, 0, 1}), 1e-6);
   });
 }
 
 TEST(IlluminanceBatch, OtherShapesOneByOneAndWhatIsNoNumberCounted) {
   Random random(8);
-  const protocol::Placement disk = protocol::place(Kind::disk, random, true);
+  const protocol::Placement tube = protocol::place(Kind::flat_tube, random, true);
   Points points;
-  points.add(disk.position, disk.normal);
+  points.add(tube.position, tube.normal);
   points.add({std::numeric_limits<double>::quiet_NaN(), 0, 0}, {0, 0, 1});
   points.add({0, 0, 0}, {0, std::numeric_limits<double>::infinity(), 0});
   std::vector<float> sr(3);
-  for (const Emitter& light : {disk.emitter, protocol::white(SphereEmitter{{0, 0, 3}, 1})}) {
+  for (const Emitter& light : {tube.emitter, protocol::white(SphereEmitter{{0, 0, 3}, 1})}) {
     const BatchOutcome done = LightBatch::of(light)->projected_solid_angles(points.batch(), sr, -1);
     ASSERT_TRUE(done.ok());
     EXPECT_EQ(*done, 2u);
@@ -190,9 +272,48 @@ TEST(IlluminanceBatch, OtherShapesOneByOneAndWhatIsNoNumberCounted) {
     EXPECT_EQ(sr[2], -1);
   }
   std::vector<float> few(2);
-  EXPECT_EQ(LightBatch::of(disk.emitter)->projected_solid_angles(points.batch(), few, 0).error().code, "BATCH_SIZES_DIFFER");
-  Emitter line = protocol::white(LineEmitter{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}});
-  EXPECT_EQ(LightBatch::of(line).error().code, "EVALUATION_UNSUPPORTED");
+  EXPECT_EQ(LightBatch::of(tube.emitter)->projected_solid_angles(points.batch(), few, 0).error().code, "BATCH_SIZES_DIFFER");
+  Emitter picture;
+  picture.shape = DiskEmitter{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, 1};
+  picture.pattern = [](Vec2d) { return Rgb{1, 1, 1}; };
+  EXPECT_EQ(LightBatch::of(picture).error().code, "EVALUATION_UNSUPPORTED");
+}
+
+TEST(IlluminanceBatch, ScaleTimesValueIsIlluminance) {
+  const Rgb colour{3, 2, 1};
+  const auto punctual = [&](const auto& shape) {
+    Emitter e;
+    e.shape = PunctualEmitter{{0, 0, 2}, {}, colour, shape};
+    e.window = {Falloff::frostbite, 5};
+    return e;
+  };
+  const auto shining = [&](const EmitterShape& shape) {
+    Emitter e = protocol::white(shape);
+    e.radiance = colour;
+    return e;
+  };
+  Points points;
+  points.add({0.2, -0.3, 0.1}, normalised(Vec3d{0.1, 0.2, 1}));
+  for (const Emitter& light :
+       {punctual(PointShape{}), punctual(SpotShape{0.1, 0.5}), punctual(FrustumShape{1, 1}), shining(DistantEmitter{{0, 0, 1}, colour}),
+        shining(DistantEmitter{{0, 0, 1}, colour, 0.3}), shining(LineEmitter{{0, 0, 1}, {1, 0, 1}, colour}),
+        shining(SphereEmitter{{0, 0, 3}, 1}), shining(TubeEmitter{{0, 0, 1}, {1, 0, 1}, 0.2, Caps::flat}), shining(EnvironmentEmitter{})}) {
+    const Result<LightBatch> batch = LightBatch::of(light);
+    ASSERT_TRUE(batch.ok());
+    std::vector<float> value(1);
+    ASSERT_TRUE(batch->projected_solid_angles(points.batch(), value, -1).ok());
+    const Rgb expected = illuminance(light, points.position(0), points.normal(0)), found = batch->scale() * static_cast<double>(value[0]);
+    EXPECT_GT(expected.x, 0);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 1e-5 * expected[c]) << light.shape.index();
+  }
+  // Closer to a point light than floats can say: the largest of them.
+  Points close;
+  close.add({0, 0, 0}, {0, 0, 1});
+  std::vector<float> value(1);
+  Emitter lamp = punctual(PointShape{});
+  std::get<PunctualEmitter>(lamp.shape).position = {0, 0, 1e-30};
+  ASSERT_TRUE(LightBatch::of(lamp)->projected_solid_angles(close.batch(), value, -1).ok());
+  EXPECT_EQ(value[0], std::numeric_limits<float>::max());
 }
 
 }  // namespace

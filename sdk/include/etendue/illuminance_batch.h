@@ -1,4 +1,4 @@
-// The cosine integral of one area light at many points at once, in float, on the best instruction set that the machine has.
+// The illuminance of one light at many points at once, in float, on the best instruction set that the machine has.
 #pragma once
 
 #include "etendue/batch.h"
@@ -17,24 +17,33 @@ struct PointBatch {
   Vec3d origin;
 };
 
-// One area light made ready for batches.
+// One light made ready for batches.
 class LightBatch {
  public:
-  // Errors: EVALUATION_UNSUPPORTED: no area light, or one with a pattern or a window.
+  // Errors: EVALUATION_UNSUPPORTED: no closed form (eval.h): a pattern, a map, an area light or line with a window.
   static Result<LightBatch> of(const Emitter& emitter);
 
-  // The integral of max(n.l, 0) over the directions of the light (sr): times Emitter::radiance it is illuminance() of the same points.
-  // Spheres and polygons, convex or not, run in vectors with
+  // The illuminance at each point over scale(), so that illuminance() = scale() * value, by the shape of the light:
+  //   area lights and constant environments: sr, the integral of max(n.l, 0) over the directions of the light. scale(): cd/m2;
+  //   punctual lights and lines: 1/m2, the illuminance for an intensity of 1 cd, window included. scale(): cd;
+  //   true directions and sun disks: no unit, for 1 lx on a plane facing the light. scale(): lx.
+  // Spheres, disks, polygons (convex or not) and tubes with round caps run in vectors with
   //     |error| <= 1e-5 value + 2e-6 min(1, solid angle of the light),
-  // of doubles where those of floats would not hold it; disks, tubes and meshes are evaluated one by one. Points with a number that is not
-  // finite become `where_none`, and are counted. Errors: BATCH_SIZES_DIFFER.
-  BatchOutcome projected_solid_angles(const PointBatch& points, std::span<float> sr, float where_none) const;
+  // point lights, spots, frusta and distant lights with
+  //     |error| <= 1e-5 value + 2e-6 (what the intensity on the axis gives a surface facing the light, without the window),
+  // of doubles where those of floats would not hold it. All else is evaluated one by one: tubes with flat ends or open ones, lines, meshes
+  // and profiles. What is too large for a float becomes the largest. Points with a number that is not finite become `where_none`, and are
+  // counted. Errors: BATCH_SIZES_DIFFER.
+  BatchOutcome projected_solid_angles(const PointBatch& points, std::span<float> values, float where_none) const;
+  // cd/m2, cd or lx: what the light emits.
+  const Rgb& scale() const { return scale_; }
 
   class Shape;  // sdk/src/eval/light_batch.h
 
  private:
-  explicit LightBatch(std::shared_ptr<const Shape> shape) : shape_(std::move(shape)) {}
+  LightBatch(std::shared_ptr<const Shape> shape, const Rgb& scale) : shape_(std::move(shape)), scale_(scale) {}
   std::shared_ptr<const Shape> shape_;
+  Rgb scale_;
 };
 
 }  // namespace etendue::eval

@@ -25,6 +25,26 @@ double cap_form(const Vec3d& axis, double sine, double cosine, const Horizons& h
   return std::max(direction_integral(clipped(Contour{cap_circle(axis, cosine, sine)}, horizons)).z, 0.0);
 }
 
+// A tube with round caps, wholly above the horizon: both lines along which planes through the point touch its side and both circles along
+// which cones do, summed so that nothing cancels however far it is. Symbols and derivation: tube_batch.cpp.
+double whole_capsule(const Vec3d& a, const Vec3d& axis, double length_m, double radius) {
+  const double a_x = dot(a, axis), b_x = a_x + length_m;
+  const Vec3d off = a - axis * a_x;
+  const double across2 = dot(off, off), touching2 = std::max(across2 - radius * radius, 0.0), touching = std::sqrt(touching2);
+  const auto cap = [&](double x, double outwards) {
+    const double distance2 = across2 + x * x, distance = std::sqrt(distance2);
+    return radius * radius * (off.z + axis.z * x) / (distance2 * distance) * std::atan2(touching * distance, radius * outwards);
+  };
+  double sides = 0;
+  if (touching > 0) {
+    const double bracket = across2 * axis.z * (a_x + b_x) + off.z * (across2 - a_x * b_x);
+    sides = off.z * std::atan2(touching * length_m, touching2 + a_x * b_x) +
+            touching * length_m * bracket / ((across2 + a_x * a_x) * (across2 + b_x * b_x));
+    sides *= radius / across2;
+  }
+  return sides + cap(a_x, -a_x) + cap(b_x, b_x);
+}
+
 struct ClosedForm {
   const Emitter& emitter;
   const Vec3d& position;
@@ -63,6 +83,13 @@ struct ClosedForm {
     for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = frame.point(e.vertices[i]);
     // Counter-clockwise about the normal is clockwise as seen from its side. Where rounding cannot tell the side, nothing is seen.
     return emitter.radiance * std::max((height > 0 ? -1 : 1) * projected_solid_angle(vertices, horizons), 0.0);
+  }
+  Rgb operator()(const TubeEmitter& e) const {
+    const Vec3d a = frame.point(e.a), b = frame.point(e.b), span = b - a;
+    const double l = length(span);
+    const bool whole = e.caps == Caps::round && !horizons.distinct && std::min(a.z, b.z) >= e.radius && l > 0 && e.radius > 0;
+    if (!whole || inside_tube(a, b, e.radius, e.caps)) return outlines();
+    return emitter.radiance * std::max(whole_capsule(a, span / l, l, e.radius), 0.0);
   }
   Rgb operator()(const MeshEmitter& e) const {
     double sum = 0;

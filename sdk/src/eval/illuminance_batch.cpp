@@ -1,7 +1,10 @@
 // Many points under one light: by the kernel of its shape, else one by one.
 #include "etendue/illuminance_batch.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <variant>
 
 #include "batch_error.h"
@@ -38,37 +41,46 @@ std::shared_ptr<const LightBatch::Shape> batch_of(const Emitter& white) {
     if (auto rect = rect_batch(white)) return rect;
     return polygon_batch(white);
   }
+  if (std::holds_alternative<TubeEmitter>(white.shape)) return tube_batch(white);
+  if (std::holds_alternative<PunctualEmitter>(white.shape)) return punctual_batch(white);
+  if (std::holds_alternative<DistantEmitter>(white.shape)) return distant_batch(white);
+  if (std::holds_alternative<DiskEmitter>(white.shape)) return disk_batch(white);
   return nullptr;
 }
 
-bool is_area_light(const EmitterShape& shape) {
-  return std::holds_alternative<SphereEmitter>(shape) || std::holds_alternative<PolygonEmitter>(shape) ||
-         std::holds_alternative<DiskEmitter>(shape) || std::holds_alternative<TubeEmitter>(shape) ||
-         std::holds_alternative<MeshEmitter>(shape);
-}
+struct Scale {
+  Emitter& emitter;
+  Rgb& operator()(PunctualEmitter& e) const { return e.intensity; }
+  Rgb& operator()(DistantEmitter& e) const { return e.illuminance; }
+  Rgb& operator()(LineEmitter& e) const { return e.intensity; }
+  template <class Area>
+  Rgb& operator()(Area&) const {
+    return emitter.radiance;
+  }
+};
 
 }  // namespace
 
 double unit_for(double size) { return size > 0 && std::isfinite(size) ? std::exp2(-std::floor(std::log2(size))) : 1; }
 
 float in_double(const Emitter& white, const PointBatch& p, std::size_t i) {
-  return static_cast<float>(illuminance(white, at(p.px, p.py, p.pz, i) + p.origin, normalised(at(p.nx, p.ny, p.nz, i))).x);
+  const double value = illuminance(white, at(p.px, p.py, p.pz, i) + p.origin, normalised(at(p.nx, p.ny, p.nz, i))).x;
+  return static_cast<float>(std::min(value, static_cast<double>(std::numeric_limits<float>::max())));
 }
 
 Result<LightBatch> LightBatch::of(const Emitter& emitter) {
-  const bool windowed = emitter.window.falloff != Falloff::inverse_square && emitter.window.range_m > 0;
-  if (!is_area_light(emitter.shape) || emitter.pattern || windowed)
-    return Error{"EVALUATION_UNSUPPORTED", "expected an area light without pattern and range", {}, {}, {}};
+  if (!has_closed_form(emitter))
+    return Error{"EVALUATION_UNSUPPORTED", "expected a light without pattern or map, and without range unless it is punctual", {}, {}, {}};
   Emitter white = emitter;
-  white.radiance = {1, 1, 1};
+  const Rgb scale = std::exchange(std::visit(Scale{white}, white.shape), Rgb{1, 1, 1});
   std::shared_ptr<const Shape> shape = batch_of(white);
-  return LightBatch(shape ? std::move(shape) : std::make_shared<OneByOne>(white));
+  return LightBatch(shape ? std::move(shape) : std::make_shared<OneByOne>(white), scale);
 }
 
-BatchOutcome LightBatch::projected_solid_angles(const PointBatch& points, std::span<float> sr, float where_none) const {
+BatchOutcome LightBatch::projected_solid_angles(const PointBatch& points, std::span<float> values, float where_none) const {
   for (const std::span<const float>& s : {points.px, points.py, points.pz, points.nx, points.ny, points.nz})
-    if (s.size() != sr.size()) return batch_sizes_differ(s.size(), sr.size());
-  return shape_->over(points, sr, where_none);
+    if (s.size() != values.size()) return batch_sizes_differ(s.size(), values.size());
+  return shape_->over(points, values, where_none);
 }
 
 }  // namespace etendue::eval

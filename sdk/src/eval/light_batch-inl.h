@@ -174,6 +174,46 @@ HWY_INLINE V angle_of(D d, V y, V x) {
   return hn::IfThenElse(hn::Lt(x, zero), hn::Sub(number(d, pi), quadrant), quadrant);
 }
 
+// A cap of directions, half angle sigma, that the horizon cuts: |up| < sin(sigma). With u = up, s and c the sine and cosine of sigma, phi
+// half the angle of the circle's part above and psi half the angle of the horizon's part below the cap, the integral of half b x db gives
+//     phi s^2 u - c q + psi,   q = sqrt(s^2 - u^2), phi = angle(-c u, q), psi = atan(k), k = q / c,
+// and with c q = c^2 k = k - s^2 k it is s^2 (phi u + k) - (k - atan k), whose terms are no larger than the result's order s^3.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V cut_cap(D d, V up, V s, V c) {
+  const V zero = hn::Zero(d), s2 = hn::Mul(s, s), q = hn::Sqrt(hn::Max(hn::Mul(hn::Sub(s, up), hn::Add(s, up)), zero));
+  const V phi = angle_of(d, q, hn::Neg(hn::Mul(c, up)));
+  // atan k in eighths of a turn, as angle_of() has it.
+  const V longer = hn::Max(q, c), shorter = hn::Min(q, c), tan_eighth = number(d, 0.41421356237309503);
+  const auto low = hn::Lt(q, hn::Mul(c, tan_eighth)), middle = hn::Gt(shorter, hn::Mul(longer, tan_eighth));
+  const V over = hn::IfThenElse(middle, hn::Sub(q, c), hn::IfThenElse(low, q, hn::Neg(c)));
+  const V x = hn::Div(over, hn::IfThenElse(middle, hn::Add(q, c), longer)), z = hn::Mul(x, x);
+  const V rest = hn::Mul(hn::Mul(atan_rest(d, z), z), x), lit = hn::Mul(s2, phi);
+  const V narrow = hn::MulAdd(s2, hn::MulAdd(phi, up, x), rest);
+  const V from = hn::IfThenElse(middle, number(d, pi / 4), number(d, pi / 2));
+  const V wide = hn::Add(hn::Add(hn::MulSub(lit, up, hn::Mul(c, q)), from), hn::Add(x, rest));
+  return hn::Max(hn::IfThenElse(low, narrow, wide), zero);
+}
+
+// ln(more / less), more >= less > 0, `difference` between both: with a relative error of a few roundings, whatever is left of either.
+// After a power of two is taken out, 2 atanh((f - 1) / (f + 1)) by its series, |f| within sqrt(2) of 1.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V log_ratio(D d, V more, V less, V difference) {
+  const hn::RebindToSigned<D> integers;
+  constexpr int mantissa = in_floats<D> ? 23 : 52;
+  const V smallest = number(d, in_floats<D> ? 1e-30 : 1e-280), root_half = number(d, 0.7071067811865476);
+  less = hn::Max(less, smallest);
+  const auto exponent = hn::ShiftRight<mantissa>(hn::Sub(hn::BitCast(integers, hn::Div(more, less)), hn::BitCast(integers, root_half)));
+  const V power = hn::BitCast(d, hn::Add(hn::ShiftLeft<mantissa>(exponent), hn::BitCast(integers, number(d, 1))));
+  const V raised = hn::Mul(power, less);
+  const V x = hn::Div(hn::NegMulAdd(hn::Sub(power, number(d, 1)), less, difference), hn::Add(more, raised)), z = hn::Mul(x, x);
+  constexpr auto series = [] {
+    std::array<double, in_floats<D> ? 5 : 12> c{};
+    for (std::size_t i = 0; i < c.size(); ++i) c[i] = 2.0 / static_cast<double>(2 * i + 1);
+    return c;
+  }();
+  return hn::MulAdd(hn::ConvertTo(d, exponent), number(d, 0.6931471805599453), hn::Mul(x, polynomial(d, z, series)));
+}
+
 template <class V>
 struct Point {
   Vector<V> position, normal;  // in the light's unit; of length 1
@@ -192,16 +232,16 @@ HWY_INLINE Vector<V> towards(D d, const Place& place, const Vector<V>& position)
 
 // Coordinates whose squares are out of range are infinitely far: no light.
 template <class D, class V>
-HWY_INLINE V sane(D d, V value) {
-  return hn::IfThenElseZero(hn::Lt(value, number(d, 4)), value);
+HWY_INLINE V sane(D d, V value, double bound) {
+  return hn::IfThenElseZero(hn::Lt(value, number(d, bound)), value);
 }
 
 // Points that floats are not enough for: kept until there are some, then evaluated in vectors of doubles, and what those refuse one by one.
 template <class Kernel>
 class Doubtful {
  public:
-  Doubtful(const Emitter& white, const PointBatch& points, double scale, std::span<float> out, Kernel kernel)
-      : white_(white), points_(points), scale_(scale), out_(out), kernel_(kernel) {}
+  Doubtful(const Emitter& white, const PointBatch& points, double scale, std::span<float> out, Kernel kernel, double bound)
+      : white_(white), points_(points), scale_(scale), out_(out), kernel_(kernel), bound_(bound) {}
   // The point of each lane below `number` that is marked. Writes no results of these.
   template <class D, class M>
   HWY_INLINE void add(D d, M marked, std::size_t first, std::size_t number) {
@@ -230,7 +270,7 @@ class Doubtful {
       const V unit = hn::Set(d, scale_);
       auto marked = hn::FirstN(d, 0);
       const V value = kernel_(d, Point<V>{{hn::Mul(part(0), unit), hn::Mul(part(1), unit), hn::Mul(part(2), unit)}, normal}, marked);
-      hn::Store(sane(d, value), d, values.data());
+      hn::Store(sane(d, value, bound_), d, values.data());
       hn::Store(hn::IfThenElseZero(marked, hn::Set(d, 1.0)), d, is_marked.data());
       for (std::size_t k = 0; k < lanes && i + k < count_; ++k) {
         const std::size_t to = index_[i + k];
@@ -249,18 +289,19 @@ class Doubtful {
   double scale_;
   std::span<float> out_;
   Kernel kernel_;
+  double bound_;
 };
 
-// kernel(d, point, mask&), inlined, gives the projected solid angle of every lane, in floats and in doubles, and marks the lanes that it
-// refuses. `scale`: the light's units a metre. How many points are not finite; they become `where_none`.
+// kernel(d, point, mask&), inlined, gives the value of every lane, in floats and in doubles, and marks the lanes that it refuses. `scale`:
+// the light's units a metre. No value reaches `bound`. How many points are not finite; they become `where_none`.
 template <class Kernel>
 HWY_INLINE std::size_t at_every_point(const Emitter& white, double scale, const PointBatch& points, std::span<float> out, float where_none,
-                                      Kernel kernel) {
+                                      Kernel kernel, double bound = 4) {
   const hn::ScalableTag<float> d;
   using V = hn::Vec<decltype(d)>;
   const std::size_t lanes = hn::Lanes(d), count = out.size();
   std::size_t without = 0;
-  Doubtful<Kernel> doubtful(white, points, scale, out, kernel);
+  Doubtful<Kernel> doubtful(white, points, scale, out, kernel, bound);
   const std::array<const float*, 6> all{points.px.data(), points.py.data(), points.pz.data(),
                                         points.nx.data(), points.ny.data(), points.nz.data()};
   // The last points stand in a vector of their own.
@@ -289,7 +330,7 @@ HWY_INLINE std::size_t at_every_point(const Emitter& white, double scale, const 
     const V unit = hn::Set(d, static_cast<float>(scale));
     auto marked = hn::FirstN(d, 0);
     const V value = kernel(d, Point<V>{{hn::Mul(x, unit), hn::Mul(y, unit), hn::Mul(z, unit)}, normal}, marked);
-    hn::StoreU(hn::IfThenElse(valid, sane(d, value), hn::Set(d, where_none)), d, to);
+    hn::StoreU(hn::IfThenElse(valid, sane(d, value, bound), hn::Set(d, where_none)), d, to);
     if (HWY_UNLIKELY(!hn::AllTrue(d, valid))) without += lanes - hn::CountTrue(d, valid);
     marked = hn::And(marked, valid);
     if (HWY_UNLIKELY(!whole)) std::copy_n(last[6].begin(), number, out.data() + i);

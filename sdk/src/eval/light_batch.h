@@ -21,6 +21,10 @@ class LightBatch::Shape {
 // Of a white emitter of each shape; null where its numbers are beyond the kernel.
 std::shared_ptr<const LightBatch::Shape> sphere_batch(const Emitter& white);
 std::shared_ptr<const LightBatch::Shape> rect_batch(const Emitter& white);
+std::shared_ptr<const LightBatch::Shape> tube_batch(const Emitter& white);
+std::shared_ptr<const LightBatch::Shape> punctual_batch(const Emitter& white);
+std::shared_ptr<const LightBatch::Shape> distant_batch(const Emitter& white);
+std::shared_ptr<const LightBatch::Shape> disk_batch(const Emitter& white);
 std::shared_ptr<const LightBatch::Shape> polygon_batch(const Emitter& white);
 
 // A coordinate, and as the sum of two floats: what is left of it after a point's coordinate is taken away has all its digits.

@@ -23,35 +23,24 @@ HWY_BEFORE_NAMESPACE();
 namespace etendue::eval::HWY_NAMESPACE {
 namespace {
 
-// A cap of sine s and cosine c about the direction at the height u = n.axis. Above the horizon pi s^2 u. Where it is cut, with phi half the
-// angle of the circle's part above and psi half the angle of the horizon's part below the cap, the integral of half b x db gives
-//     phi s^2 u - c q + psi,   q = sqrt(s^2 - u^2), phi = angle(-c u, q), psi = atan(k), k = q / c,
-// and with c q = c^2 k = k - s^2 k it is s^2 (phi u + k) - (k - atan k), whose terms are no larger than the result's order s^3.
-// `doubtful` marks lanes so close to the surface that c, a root of a difference, has too few digits.
+// The directions to a sphere are a cap of the sine R / d; above the horizon pi (R / d)^2 up / d. `doubtful` marks lanes so close to the
+// surface that the cosine, a root of a difference, has too few digits.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 HWY_INLINE V over_sphere(D d, const PlacedSphere& light, const Point<V>& point, M& doubtful) {
-  const V zero = hn::Zero(d), one = number(d, 1), radius = number(d, light.radius), pi_ = number(d, pi);
+  const V zero = hn::Zero(d), r2 = number(d, light.radius * light.radius);
   const Vector<V> centre = towards(d, light.centre, point.position);
-  const V distance = hn::Sqrt(dot(centre, centre));
-  const auto outside = hn::Gt(distance, radius);
-  if constexpr (in_floats<D>) doubtful = hn::Lt(hn::Abs(hn::Sub(distance, radius)), hn::Mul(number(d, 0.004), radius));
-  const V inverse = hn::Div(one, hn::IfThenElse(outside, distance, one));
-  const V s = hn::Mul(radius, inverse);
-  const V c = hn::Mul(hn::Sqrt(hn::Max(hn::Mul(hn::Sub(distance, radius), hn::Add(distance, radius)), zero)), inverse);
-  const V u = hn::Mul(dot(centre, point.normal), inverse), s2 = hn::Mul(s, s);
-  V value = hn::Mul(hn::Mul(pi_, s2), hn::Max(u, zero));
-  const auto cut = hn::And(hn::Lt(hn::Abs(u), s), outside);
+  const V distance2 = dot(centre, centre), beyond = hn::Sub(distance2, r2), up = dot(centre, point.normal), up2 = hn::Mul(up, up);
+  const auto outside = hn::Gt(beyond, zero);
+  if constexpr (in_floats<D>) doubtful = hn::Lt(hn::Abs(beyond), hn::Mul(number(d, 0.008), r2));
+  const V inverse = inverse_sqrt(d, hn::Max(distance2, r2));
+  const V height = hn::Mul(up, inverse), s2 = hn::Mul(hn::Mul(r2, inverse), inverse);
+  V value = hn::Mul(hn::Mul(number(d, pi), s2), hn::Max(height, zero));
+  const auto cut = hn::And(hn::Lt(up2, r2), outside);
   if (!hn::AllFalse(d, cut)) {
-    const V q = hn::Sqrt(hn::Max(hn::Mul(hn::Sub(s, u), hn::Add(s, u)), zero));
-    const V phi = angle_of(d, q, hn::Neg(hn::Mul(c, u))), psi = angle_of(d, q, c);
-    // k - atan k by its series where the difference would cancel.
-    const V k = hn::Div(q, hn::Max(c, number(d, 1e-6))), k2 = hn::Mul(k, k);
-    const V narrow = hn::MulAdd(s2, hn::MulAdd(phi, u, k), hn::Mul(hn::Mul(atan_rest(d, k2), k2), k));
-    const V wide = hn::Add(hn::MulSub(hn::Mul(phi, s2), u, hn::Mul(c, q)), psi);
-    const V part = hn::IfThenElse(hn::Lt(k, number(d, 0.41421356237309503)), narrow, wide);
-    value = hn::IfThenElse(cut, hn::Max(part, zero), value);
+    const V s = hn::Mul(number(d, light.radius), inverse), c = hn::Mul(hn::Sqrt(hn::Max(beyond, zero)), inverse);
+    value = hn::IfThenElse(cut, cut_cap(d, height, s, c), value);
   }
-  return hn::IfThenElse(outside, value, light.white.two_sided ? pi_ : zero);
+  return hn::IfThenElse(outside, value, light.white.two_sided ? number(d, pi) : zero);
 }
 
 struct SphereKernel {
