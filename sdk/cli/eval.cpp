@@ -17,6 +17,7 @@
 #include "etendue/illuminance_batch.h"
 #include "etendue/published.h"
 #include "etendue/render.h"
+#include "etendue/rig_batch.h"
 #include "eval_points.h"
 #include "limits.h"
 #include "verbs.h"
@@ -74,6 +75,8 @@ class Evaluator {
   static Result<Evaluator> of(const Options& options);
 
   bool wants_view() const { return !lambert_; }
+  // In floats, where a sum may leave out lights that are below the tolerance.
+  bool in_floats() const { return fast_ && lambert_; }
   Answer operator()(const Emitter& emitter, const PointRow& point) const;
   // Many points of one light; `fast` alone knows a shorter way.
   std::vector<Answer> operator()(const Emitter& emitter, std::span<const PointRow> points) const;
@@ -186,24 +189,35 @@ Answer Evaluator::operator()(const Emitter& emitter, const PointRow& p) const {
   return {value, rounding_of(emitter, value), "exact"};
 }
 
+// Points as floats, relative to the first of them.
+struct FloatPoints {
+  explicit FloatPoints(std::span<const PointRow> points) : origin(points.front().position) {
+    for (const PointRow& p : points) {
+      const Vec3d at = p.position - origin;
+      const std::array<double, 6> from{at.x, at.y, at.z, p.normal.x, p.normal.y, p.normal.z};
+      for (std::size_t k = 0; k < 6; ++k) columns[k].push_back(static_cast<float>(from[k]));
+      const Vec3d rounded{columns[0].back(), columns[1].back(), columns[2].back()};
+      if (std::isfinite(length(rounded))) moved_m = std::max(moved_m, length(rounded - at));
+    }
+  }
+  eval::PointBatch batch() const { return {columns[0], columns[1], columns[2], columns[3], columns[4], columns[5], origin}; }
+
+  Vec3d origin;
+  std::array<std::vector<float>, 6> columns;
+  double moved_m = 0;  // the furthest that a point was by rounding
+};
+
 std::vector<Answer> Evaluator::operator()(const Emitter& emitter, std::span<const PointRow> points) const {
   std::vector<Answer> answers;
   answers.reserve(points.size());
   const Result<eval::LightBatch> batch = eval::LightBatch::of(emitter);
-  if (!fast_ || !lambert_ || !batch) {
+  if (!in_floats() || !batch) {
     for (const PointRow& p : points) answers.push_back((*this)(emitter, p));
     return answers;
   }
-  std::array<std::vector<float>, 6> c;
-  const Vec3d origin = points.front().position;
-  for (const PointRow& p : points) {
-    const Vec3d at = p.position - origin;
-    const std::array<double, 6> from{at.x, at.y, at.z, p.normal.x, p.normal.y, p.normal.z};
-    for (std::size_t k = 0; k < 6; ++k) c[k].push_back(static_cast<float>(from[k]));
-  }
+  const FloatPoints floats(points);
   std::vector<float> sr(points.size());
-  const BatchOutcome done =
-      batch->projected_solid_angles({c[0], c[1], c[2], c[3], c[4], c[5], origin}, sr, std::numeric_limits<float>::quiet_NaN());
+  const BatchOutcome done = batch->projected_solid_angles(floats.batch(), sr, std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!done || !std::isfinite(sr[i])) {  // too far from the others for a float
       answers.push_back((*this)(emitter, points[i]));
@@ -214,6 +228,61 @@ std::vector<Answer> Evaluator::operator()(const Emitter& emitter, std::span<cons
   }
   return answers;
 }
+
+// All lights together in floats, those that are below the tolerance skipped.
+class Sum {
+ public:
+  Sum(const std::vector<Emitter>& emitters, const Evaluator& one_by_one, double tolerance)
+      : rig_(emitters), one_by_one_(one_by_one), tolerance_{tolerance, 0} {}
+
+  std::vector<Answer> operator()(std::span<const PointRow> points) {
+    const FloatPoints floats(points);
+    constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    std::vector<Vec3f> lux(points.size());
+    std::vector<float> bound(points.size());
+    const Result<eval::RigCounts> done = rig_.illuminance(floats.batch(), tolerance_, lux, bound, {none, none, none}, workspace_);
+    moved_m_ = std::max(moved_m_, floats.moved_m);
+    std::vector<Answer> answers;
+    answers.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (done && std::isfinite(lux[i].x)) {
+        answers.push_back({vec_cast<double>(lux[i]), static_cast<double>(bound[i]), "sum"});
+        continue;
+      }
+      Answer all{{}, 0, "sum"};  // too far from the others for a float
+      for (const Emitter& emitter : rig_.emitters()) {
+        const Answer one = one_by_one_(emitter, points[i]);
+        all.value += one.value;
+        all.bound += one.bound;
+      }
+      counts_.evaluated += rig_.emitters().size();
+      answers.push_back(all);
+    }
+    if (!done) return answers;
+    counts_.evaluated += done->evaluated;
+    counts_.repeated += done->repeated;
+    counts_.skipped_unseen += done->skipped_unseen;
+    counts_.skipped_small += done->skipped_small;
+    counts_.bounds += done->bounds;
+    return answers;
+  }
+  void tell(Json& stats) const {
+    stats["evaluations"] = counts_.evaluated;
+    stats["repeated"] = counts_.repeated;
+    stats["skipped_unseen"] = counts_.skipped_unseen;
+    stats["skipped_small"] = counts_.skipped_small;
+    stats["bounds"] = counts_.bounds;
+    stats["rounded_m"] = moved_m_;
+  }
+
+ private:
+  eval::RigBatch rig_;
+  const Evaluator& one_by_one_;
+  eval::Tolerance tolerance_;
+  eval::RigBatch::Workspace workspace_;
+  eval::RigCounts counts_;
+  double moved_m_ = 0;
+};
 
 int run_eval(const Common& common, const Options& options) {
   Session session("eval", common);
@@ -231,6 +300,8 @@ int run_eval(const Common& common, const Options& options) {
   for (std::size_t i = 0; i < emitters->size(); ++i)
     if (const Status ok = evaluator->accepts((*emitters)[i], name(i)); !ok) return session.fail(ok.error());
 
+  std::optional<Sum> sum;
+  if (options.sum && evaluator->in_floats()) sum.emplace(*emitters, *evaluator, options.tolerance);
   session.result = Json::array();
   std::uint64_t points = 0;
   std::string rows = "index,light,r,g,b,bound,method\n";
@@ -251,18 +322,23 @@ int run_eval(const Common& common, const Options& options) {
   };
   const Status read = each_block(options.points, evaluator->wants_view(), [&](std::span<const PointRow> block) -> Status {
     if (interrupted()) return Error{"CANCELLED", "stopped", {}, {}, {}};
-    std::vector<std::vector<Answer>> by_light;
-    by_light.reserve(emitters->size());
-    for (const Emitter& emitter : *emitters) by_light.push_back((*evaluator)(emitter, block));
-    for (std::size_t p = 0; p < block.size(); ++p) {
-      Answer all{{}, 0, "sum"};
-      for (std::size_t i = 0; i < by_light.size(); ++i) {
-        const Answer& one = by_light[i][p];
-        all.value += one.value;
-        all.bound += one.bound;
-        if (!options.sum) tell(points + p, name(i), one);
+    if (sum) {
+      const std::vector<Answer> answers = (*sum)(block);
+      for (std::size_t p = 0; p < block.size(); ++p) tell(points + p, "all", answers[p]);
+    } else {
+      std::vector<std::vector<Answer>> by_light;
+      by_light.reserve(emitters->size());
+      for (const Emitter& emitter : *emitters) by_light.push_back((*evaluator)(emitter, block));
+      for (std::size_t p = 0; p < block.size(); ++p) {
+        Answer all{{}, 0, "sum"};
+        for (std::size_t i = 0; i < by_light.size(); ++i) {
+          const Answer& one = by_light[i][p];
+          all.value += one.value;
+          all.bound += one.bound;
+          if (!options.sum) tell(points + p, name(i), one);
+        }
+        if (options.sum) tell(points + p, "all", all);
       }
-      if (options.sum) tell(points + p, "all", all);
     }
     points += block.size();
     if (!common.json && (std::fwrite(rows.data(), 1, rows.size(), stdout) != rows.size() || std::fflush(stdout) != 0))
@@ -272,6 +348,7 @@ int run_eval(const Common& common, const Options& options) {
   });
   session.stats["points"] = points;
   session.stats["evaluations"] = points * emitters->size();
+  if (sum) sum->tell(session.stats);
   if (!read) return session.fail(read.error());
   return session.finish(exit_done);
 }
@@ -298,7 +375,10 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
                    "exact, fast (floats; of other diffuse BRDFs a few dozen evaluations, whose bound is an estimate that 99 of 100 keep), "
                    "reference, or a published method's name (diffuse)")
       ->capture_default_str();
-  verb->add_option("--tolerance", options->tolerance, "Where nothing is exact: error at most this part of the value")
+  verb->add_option(
+          "--tolerance", options->tolerance,
+          "Where nothing is exact: error at most this part of the value. With --sum, of lambert: lights that are below it are left "
+          "out, from 1e-6 on; --stats counts them")
       ->capture_default_str()
       ->check(CLI::Range(1e-9, 0.1));
   verb->add_flag("--sum", options->sum, "One row a point: all lights together");
@@ -309,6 +389,7 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
       "\nNothing stands in the light's way: shadows are render's.\n"
       "\nExamples:\n"
       "  echo 0,0,0,0,1,0 | etendue eval kitchen.rig.json --points - --sum\n"
+      "  etendue eval street.rig.json --points road.csv --method fast --sum --tolerance 1e-2 --stats\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf ggx --alpha 0.1 --tolerance 1e-3\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf oren-nayar --roughness 0.8 --method fast\n"
       "  etendue eval studio.rig.json --points floor.csv --lights key --method frostbite-12");

@@ -57,6 +57,15 @@ def main():
     # A matt surface of albedo .5 under Disney's model at roughness .5 and normal view is near E / (2 pi).
     lux, disney = rows(etendue, "--sum")[0], rows(etendue, "--brdf", "disney", "--sum")[0]
     good.append(0.7 < float(disney["g"]) / (0.5 * float(lux["g"]) / 3.14159265) < 1.2)
+    # A sum of floats within a tolerance: of the value, by its bound; every pair of a light and a point is accounted for.
+    for tolerance in ("1e-2", "1e-3", "1e-4"):
+        options = ["--sum", "--method", "fast", "--tolerance", tolerance]
+        loose = rows(etendue, *options)
+        good.append(agree("sum " + tolerance, loose, rows(etendue, "--sum")))
+        good.append(all(float(x["bound"]) <= 1.01 * float(tolerance) * max(float(x[c]) for c in "rgb") for x in loose))
+        stats = json.loads(subprocess.run([etendue, "eval", RIG, "--points", POINTS, "--json", "--stats", *options], capture_output=True, text=True,
+                                          check=True).stdout)["stats"]
+        good.append(stats["evaluations"] + stats["skipped_unseen"] + stats["skipped_small"] == 2 * stats["points"] > 0)
     document = json.loads(subprocess.run([etendue, "eval", RIG, "--points", POINTS, "--json"], capture_output=True, text=True, check=True).stdout)
     good.append([str(r["index"]) for r in document["result"]] == [r["index"] for r in exact])
     good.append(all(apart(r, e) == 0 for r, e in zip(document["result"], exact)))

@@ -136,6 +136,28 @@ TEST(LambertianFacets, AreEquation4) {
   EXPECT_NEAR(brdf_cos(LambertianFacets{alpha, Masking::separable}, v, l).value, separable, 1e-5 * separable);
 }
 
+// What one facet throws on another is lost: a white rough surface gives back less than it gets, the less the rougher.
+TEST(LambertianFacets, LoseLightToEachOther) {
+  constexpr int nz = 12, nphi = 16;
+  for (const double nv : {0.2, 0.9}) {
+    double before = 1;
+    for (const double alpha : {0.05, 0.25, 0.64, 1.0}) {
+      double sum = 0;
+      for (int i = 0; i < nz; ++i) {
+        const double z = (i + 0.5) / nz, r = std::sqrt(1 - z * z);
+        for (int j = 0; j < nphi; ++j) {
+          const double phi = pi * (j + 0.5) / nphi;
+          sum += brdf_cos(LambertianFacets{alpha}, view_at(nv), {r * std::cos(phi), r * std::sin(phi), z}, 1e-5).value;
+        }
+      }
+      const double albedo = sum * 2 * pi / (nz * nphi);
+      EXPECT_LT(albedo, before + 1e-3) << alpha << " " << nv;
+      before = albedo;
+    }
+    EXPECT_LT(before, 0.75);
+  }
+}
+
 TEST(LambertianFacets, KeepTheirError) {
   Random random(5);
   for (int i = 0; i < 150; ++i) {
@@ -171,6 +193,27 @@ TEST(GotandaDiffuse, IsNearToItsFacets) {
     }
     EXPECT_LE(off / all, 0.1) << roughness;
   }
+}
+
+// Lagarde and de Rousiers, eq 5, prints 1 + F_D90 w and F_D90 = .5 + cos^2(theta_d) alpha; Burley's, and their own listing 1, have
+// 1 + (F_D90 - 1) w and the factor 2.
+TEST(Errata, Equation5) {
+  const double roughness = 0.5, nv = 0.1, w = std::pow(1 - nv, 5);
+  const Vec3d v = view_at(nv);
+  const double burley = 1 + (0.5 + 2 * roughness - 1) * w, printed = 1 + (0.5 + roughness) * w;
+  EXPECT_NEAR(brdf_cos(DisneyDiffuse{{1, 1, 1}, roughness}, v, v).x, burley * burley * nv / pi, 1e-14);
+  EXPECT_GT(printed * printed, 1.5 * burley * burley);
+}
+
+// 3.1.3 wants all that is reflected to be at most 1: the renormalised lobe alone is above it at grazing views, and more so with the
+// specular one over it.
+TEST(Errata, RenormalisedDiffuseIsNotEnergySafe) {
+  double most = 0;
+  for (const double roughness : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0})
+    for (const double nv : {0.01, 0.05, 0.2, 0.5, 1.0}) most = std::max(most, albedo(FrostbiteDiffuse{{1, 1, 1}, roughness}, view_at(nv)));
+  EXPECT_NEAR(most, 1.0185, 1e-3);
+  EXPECT_NEAR(albedo(Standard{{1, 1, 1}, 0, 0.1, 0.5}, view_at(0.05)), 1.063, 1e-3);
+  EXPECT_NEAR(albedo(Standard{{1, 1, 1}, 0, 1, 1}, view_at(0.05)), 1.13, 5e-3);
 }
 
 // Finite and not negative wherever the directions are, however rough.

@@ -31,7 +31,8 @@ class RatioSums {
     const double ratio = all / cosine;
     double high = 0;
     for (const High& h : highs_)
-      high += std::abs(h.along - ratio * h.along_cosine) + std::abs(h.across - ratio * h.across_cosine) + ratio * h.unseen;
+      high += std::hypot(h.along.x - ratio * h.along_cosine.x, h.along.y - ratio * h.along_cosine.y) +
+              std::abs(h.across - ratio * h.across_cosine) + ratio * h.unseen;
     return high / all;
   }
 
@@ -39,7 +40,8 @@ class RatioSums {
   // Sums of the highest degree along and across a piece, of f n.l and of n.l. One node tells of no degree: there f is taken to be
   // as steep as Schlick's weight is at the horizon, which counts as far as n.l varies.
   struct High {
-    double along = 0, along_cosine = 0, across = 0, across_cosine = 0, unseen = 0;
+    Vec2d along, along_cosine;  // of a whole turn cosine and sine
+    double across = 0, across_cosine = 0, unseen = 0;
   };
 
   template <class Kernel>
@@ -47,7 +49,7 @@ class RatioSums {
     High high;
     const auto across = nodes_across(piece.order);
     const double curvature = piece.order == 1 ? 5 * piece.chord * piece.chord / sectors.centre.z : 0;
-    const auto add_row = [&](double x, double along, double along_high) {
+    const auto add_row = [&](double x, double along, const Vec2d& along_high) {
       const SectorRow row = row_at(sectors, piece, x);
       const Vec3d outwards = row.b - sectors.centre;
       Rgb row_reflected;
@@ -68,16 +70,23 @@ class RatioSums {
       reflected += row_reflected;
       cosine += row_cosine;
       high.unseen += std::abs(row_cosine) * curvature;
-      high.along += sum_of(row_reflected) * along_high;
-      high.along_cosine += row_cosine * along_high;
+      const double row_sum = sum_of(row_reflected);
+      high.along = {high.along.x + along_high.x * row_sum, high.along.y + along_high.y * row_sum};
+      high.along_cosine = {high.along_cosine.x + along_high.x * row_cosine, high.along_cosine.y + along_high.y * row_cosine};
     };
     if (piece.closed) {
       const std::size_t count = turn_nodes(piece.order);
       const double step = (piece.end - piece.begin) / static_cast<double>(count);
-      for (std::size_t i = 0; i < count; ++i) add_row(piece.begin + step * static_cast<double>(i), step, i % 2 == 0 ? 1 : -1);
+      // The highest harmonic whose sine the nodes see as well.
+      const double harmonic = 0.5 * static_cast<double>(count) - 1;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double turn = step * static_cast<double>(i);
+        add_row(piece.begin + turn, step, {std::cos(harmonic * turn), std::sin(harmonic * turn)});
+      }
     } else {
       const double half = 0.5 * (piece.end - piece.begin), middle = 0.5 * (piece.end + piece.begin);
-      for (const SectorNode& node : nodes_along(piece.order)) add_row(middle + half * node.x, half * node.weight, node.high / node.weight);
+      for (const SectorNode& node : nodes_along(piece.order))
+        add_row(middle + half * node.x, half * node.weight, {node.high / node.weight, 0});
     }
     highs_.push_back(high);
   }

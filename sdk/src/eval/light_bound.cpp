@@ -47,7 +47,7 @@ struct Bounded {
     b.normals = around_point({}, {1, 1, 1});
     b.around = luminance * projected;
     b.most = pi * luminance;
-    b.luminance = luminance;
+    b.reach = luminance;
     return b;
   }
   LightBound flat(const Box& places, const Box& normals, double surface) const {
@@ -78,7 +78,7 @@ struct Bounded {
     b.normals = shape.least_cosine >= 0 ? only(-e.frame.columns[2]) : around_point({}, {1, 1, 1});
     b.around = largest(e.intensity) * shape.highest;
     b.sure_around = b.around * shape.sure;
-    b.most = Box::infinite;
+    b.most = b.reach = Box::infinite;
     b.least_cosine = shape.least_cosine < 0 ? -1 : std::max(shape.least_cosine - 1e-9, 0.0);
     return b;
   }
@@ -115,7 +115,7 @@ struct Bounded {
     b.places.add(e.a), b.places.add(e.b);
     b.normals = around_point({}, {1, 1, 1});
     b.around = largest(e.intensity);
-    b.most = Box::infinite;
+    b.most = b.reach = Box::infinite;
     return b;
   }
   std::optional<LightBound> operator()(const MeshEmitter& e) const {
@@ -147,7 +147,7 @@ void LightBound::add(const LightBound& other) {
   sure_around += other.sure_around;
   sure_facing += other.sure_facing;
   most += other.most;
-  luminance += other.luminance;
+  reach += other.reach;
   least_cosine = std::min(least_cosine, other.least_cosine);
   range_m = std::max(range_m, other.range_m);
   if (window.range_m > 0 || other.window.range_m > 0) sure_around = sure_facing = 0;
@@ -177,9 +177,9 @@ Bound bound_at(const LightBound& light, const Box& positions, const Box& normals
   for (int i = 0; i < 3; ++i) {
     // From the light to the point.
     const double low = positions.low[i] - light.places.high[i], high = positions.high[i] - light.places.low[i];
-    const double gap = std::max(std::max(low, -high), 0.0), reach = std::max(-low, high);
+    const double gap = std::max(std::max(low, -high), 0.0), span = std::max(-low, high);
     nearest2 += gap * gap;
-    furthest2 += reach * reach;
+    furthest2 += span * span;
     const Interval surface = product(normals.low[i], normals.high[i], -high, -low);
     const Interval emitter = product(light.normals.low[i], light.normals.high[i], low, high);
     over_surface = {over_surface.low + surface.low, over_surface.high + surface.high};
@@ -189,12 +189,12 @@ Bound bound_at(const LightBound& light, const Box& positions, const Box& normals
   const double nearest = std::sqrt(nearest2);
   if (nearest >= light.range_m) return {};
   if (light.least_cosine >= 0 && !(over_light.high > 0 && over_light.high >= light.least_cosine * nearest)) return {};
-  if (!(nearest2 > 0)) return {light.most, 0, light.luminance};
+  if (!(nearest2 > 0)) return {light.most, 0, light.reach};
   const double emitted = (light.around + light.facing * share(over_light.high, nearest)) / nearest2;
   // Normals are units but for the rounding of floats.
   Bound bound;
   bound.most = std::min(1.000001 * emitted * share(over_surface.high, nearest) * window_at(light.window, nearest), light.most);
-  bound.reach = std::min(emitted, light.luminance);
+  bound.reach = std::min(emitted, light.reach);
   if (over_surface.low > 0) {
     const double furthest = std::sqrt(furthest2);
     bound.least = 0.999999 * (light.sure_around + light.sure_facing * std::max(over_light.low, 0.0) / furthest) * over_surface.low /

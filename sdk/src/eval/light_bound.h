@@ -30,8 +30,8 @@ struct LightBound {
   double around = 0, facing = 0;
   // Of it, what is certain where all of the lights is seen: the same with the distance of the furthest.
   double sure_around = 0, sure_facing = 0;
-  double most = 0;       // lx, at any distance
-  double luminance = 0;  // cd/m2: the sum of the lights' largest channels
+  double most = 0;   // lx, at any distance
+  double reach = 0;  // most of Bound's
   // No light goes where the cosine with all normals is less; -1: it goes everywhere.
   double least_cosine = -1;
   double range_m = Box::infinite;  // no light goes further
@@ -44,7 +44,8 @@ struct LightBound {
 std::optional<LightBound> light_bound(const Emitter& emitter);
 
 // What the lights give at any point in `positions` with any of `normals`, in lux, the largest channel: at most `most`, 0 where none is
-// seen, and at least `least`. `reach`: cd/m2 times solid angle, at most `luminance`.
+// seen, and at least `least`. `reach`: what a surface that faces the lights gets at most, without their windows; of area lights the
+// luminance times min(1, solid angle).
 struct Bound {
   double most = 0, least = 0, reach = 0;
 };

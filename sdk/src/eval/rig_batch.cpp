@@ -244,7 +244,7 @@ RigBatch::RigBatch(std::vector<Emitter> emitters) {
   for (std::uint32_t i = 0; i < emitters.size(); ++i) {
     const Emitter& e = emitters[i];
     Light light;
-    if (Result<LightBatch> batch = LightBatch::of(e)) {
+    if (Result<LightBatch> batch = LightBatch::of(e); batch && largest(e.radiance) > 0) {
       light.batch = std::move(*batch);
       light.colour = vec_cast<float>(e.radiance);
     }
