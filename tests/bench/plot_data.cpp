@@ -1,4 +1,5 @@
-// The numbers behind the pictures of sdk/docs/colour.md and camera.md, as JSON; sdk/docs/pictures/draw draws them.
+// The numbers behind the pictures of sdk/docs, as JSON; sdk/docs/pictures/draw draws them.
+#include "diffuse_curves.h"
 #include "peers.h"
 
 #include "etendue/batch.h"
@@ -157,9 +158,15 @@ Json colour_errors() {
 
 int main() {
   using namespace etendue::bench;
-  const Json all = {{"falloff_10", falloff(10)},       {"falloff_40", falloff(40)},          {"exposure", exposure()},
-                    {"response", response()},          {"chromaticities", chromaticities()}, {"temperature_errors", temperature_errors()},
-                    {"colour_errors", colour_errors()}};
+  const Json all = {{"falloff_10", falloff(10)},
+                    {"falloff_40", falloff(40)},
+                    {"exposure", exposure()},
+                    {"response", response()},
+                    {"chromaticities", chromaticities()},
+                    {"temperature_errors", temperature_errors()},
+                    {"colour_errors", colour_errors()},
+                    {"diffuse_reflectances", diffuse_reflectances(0.8)},
+                    {"diffuse_rule_errors", diffuse_rule_errors()}};
   fmt::print("{}\n", all.dump());
   return 0;
 }
