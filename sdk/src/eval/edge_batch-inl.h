@@ -33,10 +33,11 @@ HWY_INLINE std::array<V, N> angle_over_sine_rests(D d, const std::array<V, N>& t
                    -0.00761557400996455376, 0.00350138714005974618, -0.000991259280245957699, 0.000132844574969350185});
 }
 
-// An edge's ends a and b: (a^2 - r^2) / r^2, (b^2 - r^2) / r^2, and half of the squared length over r^2.
+// An edge's ends a and b: (a^2 - r^2) / r^2, (b^2 - r^2) / r^2, their sum, of which a caller may know more digits, and half of the squared
+// length over r^2.
 template <class V>
 struct Edge {
-  V from, to, half_length2;
+  V from, to, sum, half_length2;
 };
 // a^2 b^2 / r^4 and a.b / r^2.
 template <class V>
@@ -62,9 +63,8 @@ HWY_INLINE EdgeRests<N, V, M> edge_rests(D d, const std::array<Edge<V>, N>& edge
   const V one = number(d, 1), half = number(d, 0.5);
   std::array<V, N> k, x, square, dot, q, e, t;
   each<N>([&](auto i) ETENDUE_INLINE_LAMBDA {
-    const V ends = hn::Add(edges[i].from, edges[i].to);
-    k[i] = hn::MulSub(half, ends, edges[i].half_length2);
-    x[i] = hn::MulAdd(edges[i].from, edges[i].to, ends);
+    k[i] = hn::MulSub(half, edges[i].sum, edges[i].half_length2);
+    x[i] = hn::MulAdd(edges[i].from, edges[i].to, edges[i].sum);
     square[i] = hn::Add(one, x[i]);
     dot[i] = one;
   });
@@ -112,28 +112,49 @@ HWY_INLINE EdgeRests<N, V, M> edge_rests(D d, const std::array<Edge<V>, N>& edge
   return rests;
 }
 
-// Where floats are not enough. A flat light seen edge-on: the part of its sum that is not along its plane is the small rest of two that are
-// not (`shine`), and its height has few digits itself; a light whose edge passes beside the point: what is seen of it turns with the edge's
-// direction, and `closest`, one over the distance of that edge, is how much a rounding of the point turns it; a corner so close that its
-// distance has no digits (`least`, of all ends' (a^2 - r^2) / r^2). `bulk`: a tenth of the longer side's fourth power, for light that is
-// much longer than it is wide.
-template <class V>
-struct Cancellation {
-  V value, n_z, z, r2, per_r2, area, bulk, closest, least;
+// Which side of a flat light is seen.
+template <class M>
+struct Sides {
+  M front, seen;
+  M unsure;  // its height is lost in rounding
 };
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
-HWY_INLINE M cancels(D d, const Cancellation<V>& c) {
+HWY_INLINE Sides<M> sides_of(D d, V z, V r2, bool two_sided) {
+  const M front = hn::Lt(z, hn::Zero(d)), unsure = hn::Lt(hn::Mul(z, z), hn::Mul(r2, number(d, in_floats<D> ? 2.5e-13 : 1e-18)));
+  return {front, two_sided ? hn::Or(front, hn::Gt(z, hn::Zero(d))) : front, unsure};
+}
+
+// What may cancel in a flat light's value.
+//   Seen edge-on, the part of the sum that is not along its plane is the small rest of two that are not (`shine`), and its height has few
+//   digits itself. What of the `longer` side's square is more than the area does not cancel in the sum's rounding; less of it counts where
+//   opposite edges are `whole`.
+//   Where an edge or a corner is close, what is seen turns with the direction to it, and a rounding of the point turns that: by one over
+//   the distance of the edge that passes beside the point (`closest`), or of the closest end (`least`, of all ends' (a^2 - r^2) / r^2).
+template <class V, class M>
+struct Cancellation {
+  V value, n_z, z, r2, per_r2, area, longer, closest, least;
+  M whole;
+};
+// Where floats are not enough: more than .7 of LightBatch's bound may be lost. The factors, in units of 1e-6, are those that
+// tests/stress finds enough with its search for the worst case.
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+HWY_INLINE M cancels(D d, const Cancellation<V, M>& c) {
   if constexpr (in_floats<D>) {
-    const V inverse_r = near_inverse_sqrt(d, c.r2),
-            shine = hn::Abs(hn::Mul(hn::Mul(hn::MulAdd(c.bulk, c.per_r2, c.area), c.n_z), c.per_r2));
+    const V inverse_r = near_inverse_sqrt(d, c.r2), square = hn::Mul(c.longer, c.longer);
+    const V bulk = hn::Mul(square, hn::IfThenElse(c.whole, hn::Mul(hn::Mul(c.longer, inverse_r), number(d, 0.08)), number(d, 0.08)));
+    // |n.(a x unit vector along an edge)| is no more than |n_z| r + |z|.
+    const V leaning = hn::Abs(c.n_z), across = hn::MulAdd(hn::Abs(c.z), inverse_r, leaning);
+    const V shine = hn::Mul(hn::MulAdd(bulk, across, hn::Mul(c.area, leaning)), c.per_r2);
     const V solid_angle = hn::Mul(hn::Mul(hn::Abs(c.z), inverse_r), hn::Mul(c.area, c.per_r2));
-    const V error = hn::MulAdd(hn::Mul(c.closest, c.r2), hn::Mul(number(d, 0.1), inverse_r), hn::Mul(shine, number(d, 0.75)));
+    const V to_end = near_inverse_sqrt(d, hn::Max(hn::Add(c.least, number(d, 1)), number(d, 1e-6)));
+    const V error =
+        hn::MulAdd(hn::Max(hn::Mul(hn::Mul(c.closest, c.r2), inverse_r), to_end), number(d, 0.1), hn::Mul(shine, number(d, 0.75)));
     const V allowed = hn::MulAdd(hn::Abs(c.value), number(d, 7), hn::Mul(solid_angle, number(d, 1.4)));
     const M lost = hn::Or(hn::Gt(error, allowed), hn::Lt(c.least, number(d, -0.9998)));
     const M flat = hn::Lt(hn::Mul(hn::Abs(c.z), inverse_r), number(d, 0.02));
     return hn::Or(lost, hn::And(flat, hn::Lt(hn::Abs(c.value), number(d, 0.05))));
   } else {
-    return hn::Or(hn::Lt(c.least, number(d, -1 + 1e-9)), hn::Lt(hn::Mul(c.z, c.z), hn::Mul(number(d, 1e-18), c.r2)));
+    return hn::Lt(c.least, number(d, -1 + 1e-9));
   }
 }
 // least: as Cancellation's. Beyond 1e4 times its reach all of a light's ends are within 8e-4 of r^2.

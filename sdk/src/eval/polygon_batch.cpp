@@ -15,18 +15,25 @@
 #define ETENDUE_POLYGON_BATCH_SHARED
 namespace etendue::eval {
 
-// In units of the batch, from the polygon's middle.
+// In units of the batch, on the polygon's plane from its middle; x leads to the farthest corner, so that a narrow outline keeps its digits.
 struct Corner {
-  Direction offset;
+  Constant x, y;
   Constant beyond;  // squared distance from the middle less the mean of all corners'
+};
+// The sum of both corners of an edge.
+struct CornerSum {
+  Constant x, y, beyond;
 };
 struct Outline {
   std::vector<Corner> corners;
-  Vec3d first, middle;  // m; the middle from the first corner
-  Direction normal{{}};
-  Constant reach2;      // the mean squared distance
-  Constant area, bulk;  // as Cancellation's; area of a concave outline's hull's bound: no less than its own
-  double scale = 1;     // units a metre
+  std::vector<CornerSum> sums;  // of each and the one before
+  Vec3d first, middle;          // m; the middle from the first corner
+  Direction x{{}}, y{{}}, normal{{}};
+  Constant reach2;  // the mean squared distance
+  Constant twice_area;
+  Constant area, longer;  // as Cancellation's
+  double scale = 1;       // units a metre
+  bool convex = true;
 };
 struct PlacedPolygon {
   const Outline& outline;
@@ -44,7 +51,7 @@ namespace {
 // A place on the outline.
 template <class V>
 struct Spot {
-  Vector<V> offset;
+  V x, y;
   V rest;  // (a^2 - r^2) / r^2
 };
 
@@ -52,34 +59,50 @@ struct Spot {
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 struct PolygonSum {
   D d;
-  Vector<V> middle, normal;  // relative to the point
+  Vector<V> middle, normal;  // in the polygon's frame, relative to the point
   V reach2, r2, per_r2;
-  V sum, closest, least;
-  Vector<V> twice_area;
+  V sum, closest, least, twice_area;
+  bool convex;
+  M unsure;  // which way half a turn goes
 
-  HWY_INLINE void add(const Spot<V>& from, const Spot<V>& to, M counted) {
-    const Vector<V> along = to.offset - from.offset, a = middle + from.offset, across = cross(a, along);
-    const V m = dot(across, normal), half_length2 = hn::Mul(hn::Mul(dot(along, along), number(d, 0.5)), per_r2);
+  // An edge, or a part of the horizon that closes a gap. rests: the sum of both.
+  template <bool Horizon = false>
+  HWY_INLINE void add(const Spot<V>& from, const Spot<V>& to, V rests, M counted) {
+    const V dx = hn::Sub(to.x, from.x), dy = hn::Sub(to.y, from.y), ax = hn::Add(middle.x, from.x), ay = hn::Add(middle.y, from.y);
+    const V z = middle.z, length2 = hn::MulAdd(dx, dx, hn::Mul(dy, dy)), beside = hn::MulSub(ax, dy, hn::Mul(ay, dx));
+    // n.(a x b)
+    const V m = hn::MulAdd(z, hn::MulSub(normal.y, dx, hn::Mul(normal.x, dy)), hn::Mul(normal.z, beside));
     const V lower = hn::Min(from.rest, to.rest);
     const auto products = [&](auto) ETENDUE_INLINE_LAMBDA {
-      const Vector<V> b = middle + to.offset;
-      return Products<V>{hn::Mul(hn::Mul(dot(a, a), per_r2), hn::Mul(dot(b, b), per_r2)), hn::Mul(dot(a, b), per_r2)};
+      const V bx = hn::Add(middle.x, to.x), by = hn::Add(middle.y, to.y), z2 = hn::Mul(z, z);
+      const V a2 = hn::MulAdd(ax, ax, hn::MulAdd(ay, ay, z2)), b2 = hn::MulAdd(bx, bx, hn::MulAdd(by, by, z2));
+      return Products<V>{hn::Mul(hn::Mul(a2, per_r2), hn::Mul(b2, per_r2)), hn::Mul(hn::MulAdd(ax, bx, hn::MulAdd(ay, by, z2)), per_r2)};
     };
-    const EdgeRests<1, V, M> edge =
-        edge_rests(d, std::array<Edge<V>, 1>{Edge<V>{from.rest, to.rest, half_length2}}, special_at(d, lower, r2, reach2), products);
+    const Edge<V> ends{from.rest, to.rest, rests, hn::Mul(hn::Mul(length2, number(d, 0.5)), per_r2)};
+    const EdgeRests<1, V, M> edge = edge_rests(d, std::array<Edge<V>, 1>{ends}, special_at(d, lower, r2, reach2), products);
     V part = hn::Mul(edge.rest[0], m);
     if (edge.any_obtuse) {
       const M obtuse = hn::And(edge.obtuse[0], counted);
-      const V per_across = inverse_sqrt(d, hn::Max(dot(across, across), number(d, 1e-36)));
-      closest = hn::Max(closest, hn::IfThenElseZero(obtuse, hn::Mul(hn::Sqrt(dot(along, along)), per_across)));
-      part = hn::MulAdd(hn::IfThenElseZero(obtuse, hn::Mul(hn::Mul(number(d, pi), r2), m)), per_across, part);
+      const V half_turn = hn::IfThenElseZero(obtuse, hn::Mul(number(d, pi), r2));
+      if constexpr (Horizon) {
+        // Along it |a x b| = |m|, of which half a turn from a to b leaves no digit. What is seen lies on the normal's side, so that of a
+        // convex outline m has the sign of z; that of others may come back along the horizon.
+        part = hn::Add(part, hn::CopySign(half_turn, convex ? z : m));
+        if (!convex) {
+          const V one = number(d, 1), ends2 = hn::Mul(hn::Add(one, from.rest), hn::Add(one, to.rest)), over = hn::Mul(m, per_r2);
+          const M lost = hn::Lt(hn::Mul(over, over), hn::Mul(ends2, number(d, in_floats<D> ? 1e-10 : 1e-26)));
+          unsure = hn::Or(unsure, hn::And(obtuse, lost));
+        }
+      } else {
+        const V across2 = hn::MulAdd(beside, beside, hn::Mul(hn::Mul(z, z), length2));
+        const V per_across = inverse_sqrt(d, hn::Max(across2, number(d, 1e-36)));
+        closest = hn::Max(closest, hn::IfThenElseZero(obtuse, hn::Mul(hn::Sqrt(length2), per_across)));
+        part = hn::MulAdd(hn::Mul(half_turn, m), per_across, part);
+      }
     }
-    const Vector<V> turned = cross(from.offset, along);
     sum = hn::Add(sum, hn::IfThenElseZero(counted, part));
     least = hn::Min(least, hn::IfThenElseZero(counted, lower));
-    twice_area.x = hn::Add(twice_area.x, hn::IfThenElseZero(counted, turned.x));
-    twice_area.y = hn::Add(twice_area.y, hn::IfThenElseZero(counted, turned.y));
-    twice_area.z = hn::Add(twice_area.z, hn::IfThenElseZero(counted, turned.z));
+    twice_area = hn::Add(twice_area, hn::IfThenElseZero(counted, hn::MulSub(from.x, dy, hn::Mul(from.y, dx))));
   }
 };
 
@@ -88,45 +111,53 @@ template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 HWY_INLINE V over_polygon(D d, const PlacedPolygon& light, const Point<V>& point, M& doubtful) {
   const V zero = hn::Zero(d);
   const Outline& outline = light.outline;
-  const Vector<V> middle = towards(d, light.middle, point.position), facing = numbers(d, outline.normal);
-  const V reach2 = number(d, outline.reach2), r2 = hn::Add(dot(middle, middle), reach2), per_r2 = inverse(d, r2);
-  const V z = dot(middle, facing), n_z = dot(point.normal, facing), middle_up = dot(middle, point.normal);
-  const auto rest_of = [&](const Vector<V>& offset, V beyond) ETENDUE_INLINE_LAMBDA {
-    const V along = dot(middle, offset);
+  const Vector<V> to_middle = towards(d, light.middle, point.position);
+  const Vector<V> x = numbers(d, outline.x), y = numbers(d, outline.y), facing = numbers(d, outline.normal);
+  const Vector<V> middle{dot(to_middle, x), dot(to_middle, y), dot(to_middle, facing)};
+  const Vector<V> n{dot(point.normal, x), dot(point.normal, y), dot(point.normal, facing)};
+  const V reach2 = number(d, outline.reach2), r2 = hn::Add(dot(to_middle, to_middle), reach2), per_r2 = inverse(d, r2);
+  const V middle_up = dot(to_middle, point.normal);
+  const auto rest_of = [&](V px, V py, V beyond) ETENDUE_INLINE_LAMBDA {
+    const V along = hn::MulAdd(middle.x, px, hn::Mul(middle.y, py));
     return hn::Mul(hn::Add(hn::Add(along, along), beyond), per_r2);
   };
   const auto corner = [&](std::size_t i) ETENDUE_INLINE_LAMBDA {
     const Corner& c = outline.corners[i];
-    const Vector<V> offset = numbers(d, c.offset);
-    return Spot<V>{offset, rest_of(offset, number(d, c.beyond))};
+    const V px = number(d, c.x), py = number(d, c.y);
+    return Spot<V>{px, py, rest_of(px, py, number(d, c.beyond))};
   };
-  const auto up_of = [&](const Spot<V>& s) ETENDUE_INLINE_LAMBDA { return hn::Add(middle_up, dot(s.offset, point.normal)); };
-  PolygonSum<D> sum{d, middle, point.normal, reach2, r2, per_r2, zero, zero, zero, {zero, zero, zero}};
+  const auto up_of = [&](const Spot<V>& s) ETENDUE_INLINE_LAMBDA { return hn::Add(middle_up, hn::MulAdd(s.x, n.x, hn::Mul(s.y, n.y))); };
+  const M none = hn::FirstN(d, 0), all = hn::Not(none);
+  PolygonSum<D> sum{d, middle, n, reach2, r2, per_r2, zero, zero, zero, zero, outline.convex, none};
   const Spot<V> first = corner(0);
   const V first_up = up_of(first);
   Spot<V> a = first, gone = first, risen = first;
-  V a_up = first_up, highest = first_up;
-  const M none = hn::FirstN(d, 0), all = hn::Not(none);
+  V a_up = first_up, highest = first_up, lowest = first_up;
   M below = hn::Lt(first_up, zero), was_gone = none, came_first = none;
   const auto either = [](M mask, const Spot<V>& yes, const Spot<V>& no) ETENDUE_INLINE_LAMBDA {
-    return Spot<V>{chosen(mask, yes.offset, no.offset), hn::IfThenElse(mask, yes.rest, no.rest)};
+    return Spot<V>{hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.rest, no.rest)};
   };
   const std::size_t count = outline.corners.size();
   for (std::size_t i = 1; i <= count; ++i) {
     const Spot<V> b = i == count ? first : corner(i);
     const V b_up = i == count ? first_up : up_of(b);
     highest = hn::Max(highest, b_up);
+    lowest = hn::Min(lowest, b_up);
     const M b_below = hn::Lt(b_up, zero), down = hn::AndNot(below, b_below), up = hn::AndNot(b_below, below);
-    if (hn::AllFalse(d, hn::Or(below, b_below))) {
-      sum.add(a, b, all);
+    const M either_below = hn::Or(below, b_below);
+    const CornerSum& both = outline.sums[i == count ? 0 : i];
+    const V rests = rest_of(number(d, both.x), number(d, both.y), number(d, both.beyond));
+    if (hn::AllFalse(d, either_below)) {
+      sum.add(a, b, rests, all);
     } else {
       const V t = hn::IfThenElseZero(hn::Or(down, up), hn::Div(a_up, hn::Sub(a_up, b_up)));
-      Spot<V> at{between(a.offset, b.offset, t), zero};
-      at.rest = rest_of(at.offset, hn::Sub(dot(at.offset, at.offset), reach2));
-      sum.add(either(below, at, a), either(b_below, at, b), hn::Not(hn::And(below, b_below)));
+      Spot<V> at{hn::MulAdd(hn::Sub(b.x, a.x), t, a.x), hn::MulAdd(hn::Sub(b.y, a.y), t, a.y), zero};
+      at.rest = rest_of(at.x, at.y, hn::Sub(hn::MulAdd(at.x, at.x, hn::Mul(at.y, at.y)), reach2));
+      const Spot<V> from = either(below, at, a), to = either(b_below, at, b);
+      sum.add(from, to, hn::IfThenElse(either_below, hn::Add(from.rest, to.rest), rests), hn::Not(hn::And(below, b_below)));
       // Up after a gap, or up before any: that one is closed at the end.
       const M closes = hn::And(up, was_gone);
-      if (!hn::AllFalse(d, closes)) sum.add(gone, at, closes);
+      if (!hn::AllFalse(d, closes)) sum.template add<true>(gone, at, hn::Add(gone.rest, at.rest), closes);
       const M opens = hn::AndNot(was_gone, up);
       risen = either(opens, at, risen);
       came_first = hn::Or(came_first, opens);
@@ -137,13 +168,15 @@ HWY_INLINE V over_polygon(D d, const PlacedPolygon& light, const Point<V>& point
     a_up = b_up;
     below = b_below;
   }
-  if (!hn::AllFalse(d, came_first)) sum.add(gone, risen, came_first);
-  const V value = hn::Mul(hn::Mul(number(d, -0.5), per_r2), hn::Add(dot(sum.twice_area, point.normal), sum.sum));
-  const M front = hn::Lt(z, zero), seen = light.white.two_sided ? hn::Or(front, hn::Gt(z, zero)) : front;
-  const M lit = hn::And(seen, hn::Gt(highest, zero));
-  const V area = number(d, outline.area), bulk = number(d, outline.bulk);
-  doubtful = hn::And(lit, cancels(d, Cancellation<V>{value, n_z, z, r2, per_r2, area, bulk, sum.closest, sum.least}));
-  return hn::IfThenElseZero(lit, hn::Max(hn::IfThenElse(front, value, hn::Neg(value)), zero));
+  if (!hn::AllFalse(d, came_first)) sum.template add<true>(gone, risen, hn::Add(gone.rest, risen.rest), came_first);
+  const V twice_area = hn::IfThenElse(hn::Lt(lowest, zero), sum.twice_area, number(d, outline.twice_area));
+  const V value = hn::Mul(hn::Mul(number(d, -0.5), per_r2), hn::MulAdd(twice_area, n.z, sum.sum));
+  const Sides<M> side = sides_of(d, middle.z, r2, light.white.two_sided);
+  const M above = hn::Gt(highest, zero), lit = hn::And(side.seen, above);
+  const V area = number(d, outline.area), longer = number(d, outline.longer);
+  const Cancellation<V, M> terms{value, n.z, middle.z, r2, per_r2, area, longer, sum.closest, sum.least, none};
+  doubtful = hn::Or(hn::And(side.unsure, above), hn::And(lit, hn::Or(sum.unsure, cancels(d, terms))));
+  return hn::IfThenElseZero(lit, hn::Max(hn::IfThenElse(side.front, value, hn::Neg(value)), zero));
 }
 
 struct PolygonKernel {
@@ -174,26 +207,43 @@ Outline outline_of(const PolygonEmitter& polygon) {
   Vec3d middle;  // from the first corner: far from the origin the sum of both would be rounded
   for (const Vec3d& p : v) middle += (p - v[0]) / count;
   middle -= polygon.normal * dot(middle, polygon.normal);
-  outline.first = v[0];
-  outline.middle = middle;
-  double reach2 = 0, farthest2 = 0;
+  Vec3d farthest;
+  double reach2 = 0;
   for (const Vec3d& p : v) {
     const Vec3d offset = p - v[0] - middle;
     reach2 += dot(offset, offset) / count;
-    farthest2 = std::max(farthest2, dot(offset, offset));
+    if (dot(offset, offset) > dot(farthest, farthest)) farthest = offset;
   }
-  outline.scale = unit_for(std::sqrt(farthest2));
-  const double s2 = outline.scale * outline.scale;
-  double area = 0;
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    const Vec3d a = v[i] - v[0] - middle, b = v[(i + 1) % v.size()] - v[0] - middle;
-    area += 0.5 * length(cross(a, b));
-    outline.corners.push_back({Direction(a * outline.scale), (dot(a, a) - reach2) * s2});
-  }
+  const Vec3d on_plane = farthest - polygon.normal * dot(farthest, polygon.normal);
+  const Vec3d x = dot(on_plane, on_plane) > 0 ? normalised(on_plane) : basis_around(polygon.normal).tangent, y = cross(polygon.normal, x);
+  outline.first = v[0];
+  outline.middle = middle;
+  outline.x = Direction(x);
+  outline.y = Direction(y);
   outline.normal = Direction(polygon.normal);
-  outline.reach2 = reach2 * s2;
-  outline.area = area * s2;
-  outline.bulk = 1.6 * farthest2 * farthest2 * s2 * s2;
+  outline.scale = unit_for(length(farthest));
+  double twice = 0, area = 0;
+  std::vector<Vec2d> flat;
+  for (const Vec3d& p : v) {
+    const Vec3d offset = (p - v[0] - middle) * outline.scale;
+    flat.push_back({dot(offset, x), dot(offset, y)});
+  }
+  const double scaled_reach2 = reach2 * outline.scale * outline.scale;
+  for (std::size_t i = 0; i < flat.size(); ++i) {
+    const Vec2d &a = flat[i], &b = flat[(i + 1) % flat.size()];
+    twice += a.x * b.y - a.y * b.x;
+    area += 0.5 * std::abs(a.x * b.y - a.y * b.x);
+    const Vec2d& c = flat[(i + 2) % flat.size()];
+    if ((b.x - a.x) * (c.y - b.y) < (b.y - a.y) * (c.x - b.x)) outline.convex = false;
+    const Vec2d& before = flat[(i + flat.size() - 1) % flat.size()];
+    const double beyond = a.x * a.x + a.y * a.y - scaled_reach2;
+    outline.corners.push_back({a.x, a.y, beyond});
+    outline.sums.push_back({a.x + before.x, a.y + before.y, beyond + before.x * before.x + before.y * before.y - scaled_reach2});
+  }
+  outline.reach2 = scaled_reach2;
+  outline.twice_area = twice;
+  outline.area = area;
+  outline.longer = 2 * length(farthest) * outline.scale;
   return outline;
 }
 

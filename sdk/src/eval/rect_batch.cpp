@@ -19,9 +19,9 @@ struct PlacedRect {
   Place centre;
   Direction x, y, normal;
   Constant half_x, half_y, width, height;
-  Constant reach2;      // of the corners from the centre
-  Constant area, bulk;  // bulk: a tenth of the longer side's fourth power
-  double scale;         // units a metre
+  Constant reach2;        // of the corners from the centre
+  Constant area, longer;  // of both sides
+  double scale;           // units a metre
   const Emitter& white;
   PlacedRect(const Place& c, const Vec3d& along_x, const Vec3d& along_y, const Vec3d& n, double hx, double hy, double units,
              const Emitter& e)
@@ -35,7 +35,7 @@ struct PlacedRect {
         height(2 * hy),
         reach2(hx * hx + hy * hy),
         area(4 * hx * hy),
-        bulk(1.6 * std::pow(std::max(hx, hy), 4)),
+        longer(2 * std::max(hx, hy)),
         scale(units),
         white(e) {}
 };
@@ -49,7 +49,7 @@ namespace {
 // A side of the rectangle, or what is above the horizon of it: at (other, z) from `start` on by `length` with its sign.
 template <class V>
 struct Side {
-  V from, to;  // as Edge's
+  V from, to, sum;  // as Edge's
   V start, length, other;
   V m;  // n.(a x the unit vector along the side), a anywhere on it
 };
@@ -62,7 +62,7 @@ struct HorizonSide {
 // What all sides share.
 template <class V, class M>
 struct RectSums {
-  V z2, r2, per_r2;
+  V z, z2, r2, per_r2;
   Special<M> special;
   V sum, closest;  // Lambert's sum without the area's part; one over the distance of the closest side that passes beside the point
 };
@@ -83,7 +83,7 @@ HWY_INLINE void add_rests(D d, RectSums<V, M>& at, const std::array<Side<V>, 4>&
 }
 template <class D, class V = hn::Vec<D>, class M>
 HWY_INLINE Edge<V> edge_of(D d, const RectSums<V, M>& at, const Side<V>& s) {
-  return {s.from, s.to, hn::Mul(hn::Mul(hn::Mul(s.length, s.length), number(d, 0.5)), at.per_r2)};
+  return {s.from, s.to, s.sum, hn::Mul(hn::Mul(hn::Mul(s.length, s.length), number(d, 0.5)), at.per_r2)};
 }
 template <class D, class V = hn::Vec<D>, class M>
 HWY_INLINE Products<V> products_of(D, const RectSums<V, M>& at, const Side<V>& s) {
@@ -106,15 +106,16 @@ template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 HWY_INLINE void add_sides(D d, RectSums<V, M>& at, const std::array<Side<V>, 4>& s, const HorizonSide<V>& horizon, M cut) {
   const V half_length2 = hn::Mul(hn::Mul(hn::MulAdd(horizon.dx, horizon.dx, hn::Mul(horizon.dy, horizon.dy)), number(d, 0.5)), at.per_r2);
   const std::array<Edge<V>, 5> edges{edge_of(d, at, s[0]), edge_of(d, at, s[1]), edge_of(d, at, s[2]), edge_of(d, at, s[3]),
-                                     Edge<V>{horizon.from, horizon.to, half_length2}};
+                                     Edge<V>{horizon.from, horizon.to, hn::Add(horizon.from, horizon.to), half_length2}};
   const EdgeRests<5, V, M> rests = edge_rests(d, edges, at.special, [&](auto i) ETENDUE_INLINE_LAMBDA {
     if constexpr (i < 4)
       return products_of(d, at, s[i]);
     else
       return products_of(d, at, horizon);
   });
-  // |a x b| = |m| along the horizon.
-  const V straight = hn::IfThenElseZero(rests.obtuse[4], hn::Mul(hn::CopySign(number(d, pi), horizon.m), at.r2));
+  // Along the horizon |a x b| = |m|, and what is seen lies on the normal's side: m has the sign of z, which half a turn from a to b leaves
+  // no digit of.
+  const V straight = hn::IfThenElseZero(rests.obtuse[4], hn::Mul(hn::CopySign(number(d, pi), at.z), at.r2));
   at.sum = hn::Add(at.sum, hn::IfThenElseZero(cut, hn::MulAdd(rests.rest[4], horizon.m, straight)));
   add_rests(d, at, s, rests);
 }
@@ -128,13 +129,13 @@ HWY_INLINE V over_rect(D d, const PlacedRect& light, const Point<V>& point, M& d
   const Vector<V> n{dot(point.normal, x), dot(point.normal, y), dot(point.normal, facing)};
   const V z = c.z, up = dot(to_centre, point.normal), up_x = hn::Mul(n.x, half_x), up_y = hn::Mul(n.y, half_y);
   const V spread = hn::Add(hn::Abs(up_x), hn::Abs(up_y));
-  const M front = hn::Lt(z, zero), seen = light.white.two_sided ? hn::Or(front, hn::Gt(z, zero)) : front;
-  const M lit = hn::And(seen, hn::Gt(up, hn::Neg(spread))), cut = hn::And(lit, hn::Lt(up, spread));
-  doubtful = hn::FirstN(d, 0);
+  const V reach2 = number(d, light.reach2), r2 = hn::Add(dot(to_centre, to_centre), reach2);
+  const Sides<M> side = sides_of(d, z, r2, light.white.two_sided);
+  const M above = hn::Gt(up, hn::Neg(spread)), lit = hn::And(side.seen, above), cut = hn::And(lit, hn::Lt(up, spread));
+  doubtful = hn::And(side.unsure, above);
   if (hn::AllFalse(d, lit)) return zero;
   // r: of the corners' mean square. The corners' (a^2 - r^2) / r^2 are +-p +-q.
-  const V reach2 = number(d, light.reach2);
-  const V r2 = hn::Add(dot(to_centre, to_centre), reach2), per_r2 = inverse(d, r2), twice = hn::Add(per_r2, per_r2);
+  const V per_r2 = inverse(d, r2), twice = hn::Add(per_r2, per_r2);
   const V per_x = hn::Mul(twice, c.x), per_y = hn::Mul(twice, c.y);
   const V p2 = hn::Mul(c.x, number(d, light.width)), q2 = hn::Mul(c.y, number(d, light.height));
   const V p = hn::Mul(p2, per_r2), q = hn::Mul(q2, per_r2), sum_pq = hn::Mul(hn::Add(p2, q2), per_r2),
@@ -147,14 +148,16 @@ HWY_INLINE V over_rect(D d, const PlacedRect& light, const Point<V>& point, M& d
   const V m_left = hn::MulSub(n.z, x0, m_x), m_right = hn::MulSub(n.z, x1, m_x);
   const V area = number(d, light.area);
   V twice_area, least = hn::Neg(hn::Max(hn::Abs(sum_pq), hn::Abs(difference)));
-  RectSums<V, M> at{hn::Mul(z, z), r2, per_r2, {doubtful, doubtful}, zero, zero};
+  RectSums<V, M> at{z, hn::Mul(z, z), r2, per_r2, {cut, cut}, zero, zero};
   if (hn::AllFalse(d, cut)) {
     at.special = special_at(d, least, r2, reach2);
     const V width = number(d, light.width), height = number(d, light.height);
     twice_area = hn::Add(area, area);
+    const V twice_p = hn::Add(p, p), twice_q = hn::Add(q, q);
     add_sides(d, at,
-              {Side<V>{at00, at10, x0, width, y0, m_bottom}, Side<V>{at10, at11, y0, height, x1, m_right},
-               Side<V>{at11, at01, x1, hn::Neg(width), y1, m_top}, Side<V>{at01, at00, y1, hn::Neg(height), x0, m_left}});
+              {Side<V>{at00, at10, hn::Neg(twice_q), x0, width, y0, m_bottom}, Side<V>{at10, at11, twice_p, y0, height, x1, m_right},
+               Side<V>{at11, at01, twice_q, x1, hn::Neg(width), y1, m_top},
+               Side<V>{at01, at00, hn::Neg(twice_p), y1, hn::Neg(height), x0, m_left}});
   } else {
     const auto below = [&](V a, V b) ETENDUE_INLINE_LAMBDA { return hn::Lt(hn::Add(up, hn::Add(a, b)), zero); };
     const V down_x = hn::Neg(up_x), down_y = hn::Neg(up_y);
@@ -191,12 +194,9 @@ HWY_INLINE V over_rect(D d, const PlacedRect& light, const Point<V>& point, M& d
                           V m) ETENDUE_INLINE_LAMBDA {
       start = hn::IfThenElse(start_below, crossing, start);
       const V length = hn::IfThenZeroElse(hn::And(start_below, end_below), hn::Sub(hn::IfThenElse(end_below, crossing, end), start));
-      return Side<V>{hn::IfThenElse(start_below, at_crossing, from),
-                     hn::IfThenElse(end_below, at_crossing, to),
-                     hn::Add(middle, start),
-                     length,
-                     other,
-                     m};
+      from = hn::IfThenElse(start_below, at_crossing, from);
+      to = hn::IfThenElse(end_below, at_crossing, to);
+      return Side<V>{from, to, hn::Add(from, to), hn::Add(middle, start), length, other, m};
     };
     const std::array<Side<V>, 4> sides{part(b00, b10, back_x, half_x, bottom, at00, at10, at_bottom, c.x, y0, m_bottom),
                                        part(b10, b11, back_y, half_y, right, at10, at11, at_right, c.y, x1, m_right),
@@ -212,8 +212,9 @@ HWY_INLINE V over_rect(D d, const PlacedRect& light, const Point<V>& point, M& d
   }
   const V facing_part = hn::Mul(twice_area, n.z);
   const V value = hn::Mul(hn::Mul(number(d, -0.5), per_r2), hn::Add(facing_part, at.sum));
-  doubtful = hn::And(lit, cancels(d, Cancellation<V>{value, n.z, z, r2, per_r2, area, number(d, light.bulk), at.closest, least}));
-  return hn::IfThenElseZero(lit, hn::Max(hn::IfThenElse(front, value, hn::Neg(value)), zero));
+  const Cancellation<V, M> terms{value, n.z, z, r2, per_r2, area, number(d, light.longer), at.closest, least, hn::Not(cut)};
+  doubtful = hn::Or(doubtful, hn::And(lit, cancels(d, terms)));
+  return hn::IfThenElseZero(lit, hn::Max(hn::IfThenElse(side.front, value, hn::Neg(value)), zero));
 }
 
 struct RectKernel {
