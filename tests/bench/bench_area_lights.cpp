@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench.h"
@@ -45,10 +46,10 @@ struct Case {
   std::vector<float> px, py, pz, nx, ny, nz, sr;
   PointBatch batch() const { return {px, py, pz, nx, ny, nz, {}}; }
 
-  // A point light, facing and turned away.
-  Case() : sr(count) {
+  // A light without area, points facing it and turned away.
+  explicit Case(const EmitterShape& shape) : sr(count) {
     protocol::Random random(11);
-    light.shape = PunctualEmitter{{}, {}, {1, 1, 1}, PointShape{}};
+    light.shape = shape;
     prepared = *LightBatch::of(light);
     while (px.size() < count) add(random.direction() * random.uniform(0.5, 6), random.direction());
   }
@@ -120,7 +121,14 @@ int main(int argc, char** argv) {
       add_rows(table, fmt::format("{}, {}", name_of(kind), mixed ? "half of them cut by the horizon" : "above the horizon"), *cases.back());
     }
   }
-  cases.push_back(std::make_unique<Case>());
-  add_rows(table, "point light", *cases.back());
+  const Rgb one{1, 1, 1};
+  const std::vector<std::pair<const char*, EmitterShape>> thin{{"line", LineEmitter{{-0.5, 0, 0}, {0.5, 0, 0}, one}},
+                                                               {"point light", PunctualEmitter{{}, {}, one, PointShape{}}},
+                                                               {"spot", PunctualEmitter{{}, {}, one, SpotShape{0.3, 0.8}}},
+                                                               {"sun", DistantEmitter{{0, 0, 1}, one, 0.0046}}};
+  for (const auto& [name, shape] : thin) {
+    cases.push_back(std::make_unique<Case>(shape));
+    add_rows(table, name, *cases.back());
+  }
   return table.run(argc, argv);
 }

@@ -171,6 +171,10 @@ class WorstPunctual {
       const Vec3d p = points.position(i);
       double most = 1;
       if (const auto* e = std::get_if<PunctualEmitter>(&light.shape)) most = 1 / dot(e->position - p, e->position - p);
+      if (const auto* e = std::get_if<LineEmitter>(&light.shape)) {
+        const Vec3d a = e->a - p, span = e->b - e->a, nearest = a + span * std::clamp(-dot(a, span) / dot(span, span), 0.0, 1.0);
+        most = 1 / dot(nearest, nearest);
+      }
       const double expected = protocol::lux_at(light, p, points.normal(i));
       ASSERT_TRUE(std::isfinite(found[i])) << i;
       ratio = std::max(ratio, std::abs(static_cast<double>(found[i]) - expected) / (1e-5 * expected + 2e-6 * most));
@@ -208,6 +212,40 @@ TEST(IlluminanceBatch, PunctualAndDistantLightsHoldTheirBound) {
     }
     EXPECT_LE(worst.ratio, 1);
     EXPECT_GT(worst.lit, 3000);
+  });
+}
+
+// Lines at every distance, on their continuation and almost touched.
+TEST(IlluminanceBatch, LinesHoldTheirBound) {
+  on_each_instruction_set([] {
+    Random random(10);
+    WorstPunctual worst;
+    double sum = 0;
+    int bright = 0;
+    for (int i = 0; i < 400; ++i) {
+      const double length = random.log_uniform(1e-3, 1e3);
+      const Basis b = basis_around(random.direction());
+      Points points;
+      points.origin = random.direction() * random.uniform(0, 1e6);
+      Emitter light;
+      light.shape = LineEmitter{points.origin, points.origin + b.normal * length, {1, 1, 1}};
+      for (int k = 0; k < 37; ++k) {
+        const double along = random.uniform(-1, 2), off = k % 4 == 0 ? 0 : random.log_uniform(1e-5, 1e6), away = k % 3 == 0 ? off : 1;
+        const Vec3d out = (b.tangent * std::cos(k) + b.bitangent * std::sin(k)) * off + b.normal * (along * away);
+        points.add(points.origin + out * length, random.direction());
+      }
+      worst.judge(light, points);
+      const protocol::Placement p = protocol::place(Kind::capsule, random, i % 2 == 0);
+      const auto& tube = std::get<TubeEmitter>(p.emitter.shape);
+      light.shape = LineEmitter{tube.a, tube.b, {1, 1, 1}};
+      points = {};
+      points.add(p.position, p.normal);
+      const double expected = protocol::lux_at(light, points.position(0), points.normal(0));
+      if (expected >= 1e-3) sum += std::abs(static_cast<double>(evaluated(light, points)[0]) - expected) / expected, ++bright;
+    }
+    EXPECT_LE(worst.ratio, 1);
+    EXPECT_GT(worst.lit, 3000);
+    EXPECT_LE(sum / bright, 4e-6);
   });
 }
 
