@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -202,6 +203,53 @@ TEST(Property, InsideClosedLights) {
     EXPECT_EQ(lux_at(e, {}, {0, 0, 1}), 0);
     e.two_sided = true;
     EXPECT_NEAR(lux_at(e, {}, {0, 0, 1}), pi, 1e-14);
+  }
+}
+
+// What passes a sphere around a light, seen from inside, is what the light emits: pi L times its emitting area. Gauss and Legendre's places
+// in the cosine, on either side of the equator where flat lights go dark, and even ones in the azimuth.
+TEST(Property, TheFluxThroughASurroundingSphereIsTheLights) {
+  constexpr std::array<double, 12> x{0.0092196828766403, 0.0479413718147626, 0.1150486629028477, 0.2063410228566913,
+                                     0.3160842505009099, 0.4373832957442655, 0.5626167042557344, 0.6839157494990901,
+                                     0.7936589771433087, 0.8849513370971523, 0.9520586281852374, 0.9907803171233597};
+  constexpr std::array<double, 12> w{0.0235876681932559, 0.0534696629976592, 0.0800391642716731, 0.1015837133615329,
+                                     0.1167462682691774, 0.1245735229067014, 0.1245735229067014, 0.1167462682691774,
+                                     0.1015837133615329, 0.0800391642716731, 0.0534696629976592, 0.0235876681932559};
+  const auto flux = [&](const EmitterShape& shape, bool two_sided) {
+    Emitter e = white(shape);
+    e.two_sided = two_sided;
+    constexpr double radius = 4;
+    constexpr int around = 48;
+    double sum = 0;
+    for (const double side : {-1.0, 1.0}) {
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        for (int k = 0; k < around; ++k) {
+          const double z = side * x[i], r = std::sqrt(1 - z * z), phi = 2 * pi * (k + 0.5) / around;
+          const Vec3d d{r * std::cos(phi), r * std::sin(phi), z};
+          sum += w[i] * lux_at(e, d * radius, -d) / around;
+        }
+      }
+    }
+    return sum * 2 * pi * radius * radius;
+  };
+  const auto near = [&](const char* what, double found, double area) { EXPECT_NEAR(found / (pi * area), 1, 1e-6) << what; };
+  near("rectangle", flux(rectangle({}, {1, 0, 0}, {0, 1, 0}, 1, 0.7), false), 0.7);
+  near("rectangle on both sides", flux(rectangle({}, {1, 0, 0}, {0, 1, 0}, 1, 0.7), true), 1.4);
+  near("disk", flux(DiskEmitter{{}, {0, 0, 1}, {1, 0, 0}, 0.6}, false), pi * 0.36);
+  near("sphere", flux(SphereEmitter{{0.1, 0.2, 0}, 0.5}, false), 4 * pi * 0.25);
+  near("capsule", flux(TubeEmitter{{0, 0, -0.5}, {0, 0, 0.5}, 0.2, Caps::round}, false), 2 * pi * 0.2 + 4 * pi * 0.04);
+}
+
+// The midday sun's luminance: no digit depends on the unit.
+TEST(Property, HugeLuminancesKeepTheirDigits) {
+  Random random(12);
+  for (const Kind kind : {Kind::rect, Kind::sphere, Kind::disk, Kind::capsule, Kind::flat_tube, Kind::open_tube}) {
+    for (int i = 0; i < 50; ++i) {
+      Placement p = place(kind, random, i % 2 == 0);
+      const double one = lux_at(p.emitter, p.position, p.normal);
+      p.emitter.radiance = {1.6e9, 1.6e9, 1.6e9};
+      EXPECT_NEAR(lux_at(p.emitter, p.position, p.normal) / (1.6e9 * one), 1, 1e-15);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include "punctual.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace etendue::eval {
 
@@ -18,11 +19,27 @@ double cosine_above(const Vec3d& direction, const Horizons& horizons) {
   return horizons.distinct && !(dot(direction, horizons.surface) > 0) ? 0 : std::max(direction.z, 0.0);
 }
 
-// A cap of half angle sigma wholly above the horizons: pi sin^2(sigma) cos(theta).
+// x - atan(x), x >= 0, by its series where the difference would cancel.
+double beyond_arc_tangent(double x) {
+  if (x > 0.4) return x - std::atan(x);
+  double sum = 0, power = x * x * x;
+  for (int k = 3; std::abs(power) > 1e-17 * sum; k += 2) {
+    sum += power / k;
+    power *= -x * x;
+  }
+  return sum;
+}
+
+// A cap of half angle sigma: pi sin^2(sigma) cos(theta) wholly above the horizon, else with the circle's part above and the horizon's below
+// the cap as sphere_batch.cpp derives it.
 double cap_form(const Vec3d& axis, double sine, double cosine, const Horizons& horizons) {
   if (axis.z <= -sine) return 0;
   if (axis.z >= sine && (!horizons.distinct || dot(axis, horizons.surface) >= sine)) return pi * sine * sine * axis.z;
-  return std::max(direction_integral(clipped(Contour{cap_circle(axis, cosine, sine)}, horizons)).z, 0.0);
+  if (horizons.distinct) return std::max(direction_integral(clipped(Contour{cap_circle(axis, cosine, sine)}, horizons)).z, 0.0);
+  const double u = axis.z, q = std::sqrt((sine - u) * (sine + u)), phi = std::atan2(q, -cosine * u);
+  if (q > 0.4 * cosine) return std::max(phi * sine * sine * u - cosine * q + std::atan2(q, cosine), 0.0);
+  const double k = q / cosine;
+  return std::max(sine * sine * (phi * u + k) - beyond_arc_tangent(k), 0.0);
 }
 
 // A tube with round caps, wholly above the horizon: both lines along which planes through the point touch its side and both circles along
