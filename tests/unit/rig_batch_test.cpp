@@ -170,7 +170,7 @@ TEST(RigBatch, EveryLightIsWithinItsBounds) {
       positions.add(points.back().first);
       normals.add(points.back().second);
     }
-    const Bound all = bound_at(*bound, positions, normals);
+    const Bound all = bound_at(*bound, {Around::positions(positions), Around::directions(normals)});
     (all.most > 0 ? lit : unseen) += 1;
     sure += all.least > 0 ? 1 : 0;
     for (const auto& [p, n] : points) {
@@ -178,7 +178,7 @@ TEST(RigBatch, EveryLightIsWithinItsBounds) {
       ASSERT_LE(largest(lux), all.most * (1 + 1e-12)) << i;
       Box here, facing;
       here.add(p), facing.add(n);
-      const Bound one = bound_at(*bound, here, facing);
+      const Bound one = bound_at(*bound, {Around::positions(here), Around::directions(facing)});
       ASSERT_LE(one.most, all.most * (1 + 1e-12)) << i;
       ASSERT_LE(largest(lux), one.most * (1 + 1e-12)) << i;
       ASSERT_GE(largest(lux), one.least * (1 - 1e-12)) << i;
@@ -192,8 +192,7 @@ TEST(RigBatch, EveryLightIsWithinItsBounds) {
 
 // A small light far away gets almost its bound: it is no guess.
 TEST(RigBatch, BoundsAreCloseFarAway) {
-  Box here, up;
-  here.add(Vec3d{0, 0, 0}), up.add(Vec3d{0, 0, 1});
+  const Surroundings here{{{0, 0, 0}, {}}, {{0, 0, 1}, {}}};
   const Vec3d at{30, 40, 50};
   const Basis basis = basis_around(normalised(Vec3d{-1, -2, -2}));
   std::vector<Emitter> lights{protocol::white(SphereEmitter{at, 0.1}), protocol::white(DiskEmitter{at, basis.normal, basis.tangent, 0.1}),
@@ -203,7 +202,7 @@ TEST(RigBatch, BoundsAreCloseFarAway) {
   lights.push_back(spot);
   for (const Emitter& light : lights) {
     const double lux = largest(illuminance(light, {0, 0, 0}, {0, 0, 1}));
-    const Bound b = bound_at(*light_bound(light), here, up);
+    const Bound b = bound_at(*light_bound(light), here);
     EXPECT_NEAR(b.most / lux, 1, 0.02) << light.shape.index();
     if (&light != &lights.back()) {
       EXPECT_NEAR(b.least / lux, 1, 0.02) << light.shape.index();

@@ -28,14 +28,13 @@ Box only(const Vec3d& v) { return around_point(v, {}); }
 
 double share(double height, double distance) { return height < distance ? std::max(height / distance, 0.0) : 1; }
 
-// a b over two intervals.
-struct Interval {
-  double low, high;
-};
-Interval product(double a_low, double a_high, double b_low, double b_high) {
-  const double p = a_low * b_low, q = a_low * b_high, r = a_high * b_low, s = a_high * b_high;
-  return {std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s))};
+Box both_of(const Around& a, const Around& b) {
+  Box box;
+  for (const Around& one : {a, b}) box.add(one.middle - one.half), box.add(one.middle + one.half);
+  return box;
 }
+
+const Around everywhere{{}, {1, 1, 1}};
 
 struct Bounded {
   const Emitter& emitter;
@@ -43,8 +42,8 @@ struct Bounded {
 
   LightBound area(const Box& places, double projected) const {
     LightBound b;
-    b.places = places;
-    b.normals = around_point({}, {1, 1, 1});
+    b.places = Around::positions(places);
+    b.normals = everywhere;
     b.around = luminance * projected;
     b.most = pi * luminance;
     b.reach = luminance;
@@ -53,7 +52,7 @@ struct Bounded {
   LightBound flat(const Box& places, const Box& normals, double surface) const {
     LightBound b = area(places, surface);
     if (emitter.two_sided) return b;
-    b.normals = normals;
+    b.normals = Around::directions(normals);
     std::swap(b.around, b.facing);
     b.least_cosine = 0;
     b.sure_facing = b.facing;
@@ -74,8 +73,8 @@ struct Bounded {
         },
         e.shape);
     LightBound b;
-    b.places = only(e.position);
-    b.normals = shape.least_cosine >= 0 ? only(-e.frame.columns[2]) : around_point({}, {1, 1, 1});
+    b.places = Around::positions(only(e.position));
+    b.normals = shape.least_cosine >= 0 ? Around{-e.frame.columns[2], {}} : everywhere;
     b.around = largest(e.intensity) * shape.highest;
     b.sure_around = b.around * shape.sure;
     b.most = b.reach = Box::infinite;
@@ -111,9 +110,11 @@ struct Bounded {
     return area(places, 2 * e.radius * length(e.b - e.a) + end);
   }
   std::optional<LightBound> operator()(const LineEmitter& e) const {
+    Box ends;
+    ends.add(e.a), ends.add(e.b);
     LightBound b;
-    b.places.add(e.a), b.places.add(e.b);
-    b.normals = around_point({}, {1, 1, 1});
+    b.places = Around::positions(ends);
+    b.normals = everywhere;
     b.around = largest(e.intensity);
     b.most = b.reach = Box::infinite;
     return b;
@@ -139,19 +140,28 @@ struct Bounded {
 
 }  // namespace
 
-void LightBound::add(const LightBound& other) {
-  places.add(other.places);
-  normals.add(other.normals);
-  around += other.around;
-  facing += other.facing;
-  sure_around += other.sure_around;
-  sure_facing += other.sure_facing;
-  most += other.most;
-  reach += other.reach;
-  least_cosine = std::min(least_cosine, other.least_cosine);
-  range_m = std::max(range_m, other.range_m);
-  if (window.range_m > 0 || other.window.range_m > 0) sure_around = sure_facing = 0;
-  window = {};
+Around Around::positions(const Box& box) {
+  Around a{box.middle(), box.half()};
+  const auto wider = [](double middle, double half) { return half + 2e-15 * (std::abs(middle) + half); };
+  a.half = {wider(a.middle.x, a.half.x), wider(a.middle.y, a.half.y), wider(a.middle.z, a.half.z)};
+  return a;
+}
+
+LightBound joined(const LightBound& a, const LightBound& b) {
+  LightBound both;
+  both.places = Around::positions(both_of(a.places, b.places));
+  both.normals = Around::directions(both_of(a.normals, b.normals));
+  both.around = a.around + b.around;
+  both.facing = a.facing + b.facing;
+  if (!(a.window.range_m > 0 || b.window.range_m > 0)) {
+    both.sure_around = a.sure_around + b.sure_around;
+    both.sure_facing = a.sure_facing + b.sure_facing;
+  }
+  both.most = a.most + b.most;
+  both.reach = a.reach + b.reach;
+  both.least_cosine = std::min(a.least_cosine, b.least_cosine);
+  both.range_m = std::max(a.range_m, b.range_m);
+  return both;
 }
 
 std::optional<LightBound> light_bound(const Emitter& emitter) {
@@ -162,42 +172,38 @@ std::optional<LightBound> light_bound(const Emitter& emitter) {
     bound->window = emitter.window;
     bound->range_m = emitter.window.range_m;
   }
-  // The box as its numbers are rounded, and what the differences to points lose.
-  const Vec3d &low = bound->places.low, &high = bound->places.high;
-  const double rounding =
-      1e-15 * std::max({std::abs(low.x), std::abs(low.y), std::abs(low.z), std::abs(high.x), std::abs(high.y), std::abs(high.z)});
-  bound->places.low -= {rounding, rounding, rounding};
-  bound->places.high += {rounding, rounding, rounding};
   return bound;
 }
 
-Bound bound_at(const LightBound& light, const Box& positions, const Box& normals) {
-  double nearest2 = 0, furthest2 = 0;
-  Interval over_surface{0, 0}, over_light{0, 0};
+// With the middle m and half edges e of the box of differences, and n within c +- h, n.d is within c.m +- (|c|.e + h.(|m| + e)).
+Bound bound_at(const LightBound& light, const Surroundings& points) {
+  double nearest2 = 0, furthest2 = 0, over_surface = 0, surface_half = 0, over_light = 0, light_half = 0;
   for (int i = 0; i < 3; ++i) {
     // From the light to the point.
-    const double low = positions.low[i] - light.places.high[i], high = positions.high[i] - light.places.low[i];
-    const double gap = std::max(std::max(low, -high), 0.0), span = std::max(-low, high);
+    const double middle = points.positions.middle[i] - light.places.middle[i], half = points.positions.half[i] + light.places.half[i];
+    const double apart = std::abs(middle), span = apart + half, gap = std::max(apart - half, 0.0);
     nearest2 += gap * gap;
     furthest2 += span * span;
-    const Interval surface = product(normals.low[i], normals.high[i], -high, -low);
-    const Interval emitter = product(light.normals.low[i], light.normals.high[i], low, high);
-    over_surface = {over_surface.low + surface.low, over_surface.high + surface.high};
-    over_light = {over_light.low + emitter.low, over_light.high + emitter.high};
+    over_surface -= points.normals.middle[i] * middle;
+    surface_half += std::abs(points.normals.middle[i]) * half + points.normals.half[i] * span;
+    over_light += light.normals.middle[i] * middle;
+    light_half += std::abs(light.normals.middle[i]) * half + light.normals.half[i] * span;
   }
-  if (!(over_surface.high > 0)) return {};
+  const double surface_high = over_surface + surface_half, surface_low = over_surface - surface_half;
+  const double light_high = over_light + light_half, light_low = over_light - light_half;
+  if (!(surface_high > 0)) return {};
   const double nearest = std::sqrt(nearest2);
   if (nearest >= light.range_m) return {};
-  if (light.least_cosine >= 0 && !(over_light.high > 0 && over_light.high >= light.least_cosine * nearest)) return {};
+  if (light.least_cosine >= 0 && !(light_high > 0 && light_high >= light.least_cosine * nearest)) return {};
   if (!(nearest2 > 0)) return {light.most, 0, light.reach};
-  const double emitted = (light.around + light.facing * share(over_light.high, nearest)) / nearest2;
+  const double emitted = (light.around + light.facing * share(light_high, nearest)) / nearest2;
   // Normals are units but for the rounding of floats.
   Bound bound;
-  bound.most = std::min(1.000001 * emitted * share(over_surface.high, nearest) * window_at(light.window, nearest), light.most);
+  bound.most = std::min(1.000001 * emitted * share(surface_high, nearest) * window_at(light.window, nearest), light.most);
   bound.reach = std::min(emitted, light.reach);
-  if (over_surface.low > 0) {
+  if (surface_low > 0) {
     const double furthest = std::sqrt(furthest2);
-    bound.least = 0.999999 * (light.sure_around + light.sure_facing * std::max(over_light.low, 0.0) / furthest) * over_surface.low /
+    bound.least = 0.999999 * (light.sure_around + light.sure_facing * std::max(light_low, 0.0) / furthest) * surface_low /
                   (furthest2 * furthest) * window_at(light.window, furthest);
   }
   return bound;

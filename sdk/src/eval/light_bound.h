@@ -18,13 +18,26 @@ struct Box {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   void add(const Box& other) { add(other.low), add(other.high); }
+  Vec3d middle() const { return low * 0.5 + high * 0.5; }
+  Vec3d half() const { return high * 0.5 - low * 0.5; }
 
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
+// A box as bounds ask for it. Of positions it is wider than the one it is made from, by more than what sums of its numbers are rounded.
+struct Around {
+  Vec3d middle, half;
+  static Around positions(const Box& box);
+  static Around directions(const Box& box) { return {box.middle(), box.half()}; }
+};
+// Points and their normals, unit vectors to rounding.
+struct Surroundings {
+  Around positions, normals;
+};
+
 // Everything that the lights emit, from anywhere within `places`.
 struct LightBound {
-  Box places, normals;  // normals: of the emitting sides, or the axes of spots
+  Around places, normals;  // normals: of the emitting sides, or the axes of spots
   // The illuminance facing the lights at the distance d of the nearest is at most (around + facing cos) / d^2, cos that of the angle
   // to the closest of the normals; cd.
   double around = 0, facing = 0;
@@ -36,19 +49,19 @@ struct LightBound {
   double least_cosine = -1;
   double range_m = Box::infinite;  // no light goes further
   Window window;                   // of one light; of many none
-
-  void add(const LightBound& other);
 };
+// Of both together.
+LightBound joined(const LightBound& a, const LightBound& b);
 
 // Nothing where there is no such bound: environments, true directions, patterns.
 std::optional<LightBound> light_bound(const Emitter& emitter);
 
-// What the lights give at any point in `positions` with any of `normals`, in lux, the largest channel: at most `most`, 0 where none is
-// seen, and at least `least`. `reach`: what a surface that faces the lights gets at most, without their windows; of area lights the
-// luminance times min(1, solid angle).
+// What the lights give at any of the points, in lux, the largest channel: at most `most`, 0 where none is seen, and at least `least`.
+// `reach`: what a surface that faces the lights gets at most, without their windows; of area lights the luminance times
+// min(1, solid angle).
 struct Bound {
   double most = 0, least = 0, reach = 0;
 };
-Bound bound_at(const LightBound& light, const Box& positions, const Box& normals);
+Bound bound_at(const LightBound& light, const Surroundings& points);
 
 }  // namespace etendue::eval

@@ -64,14 +64,17 @@ class Cells {
   std::array<std::array<std::uint32_t, 1 << most_halvings>, 3> part_{};
 };
 
-// A face of a cube and one of nine squares on it, the middle one around the axis.
-constexpr std::uint32_t directions = 54;
-std::uint32_t direction_of(const PlacedPoint& p) {
-  const float nx = p.at[3], ny = p.at[4], nz = p.at[5], x = std::abs(nx), y = std::abs(ny), z = std::abs(nz);
-  const auto third = [](float a, float longest) { return 3 * a > longest ? 2u : 3 * a < -longest ? 0u : 1u; };
-  if (x >= y && x >= z) return (nx < 0 ? 9u : 0u) + 3 * third(ny, x) + third(nz, x);
-  if (y >= z) return 18 + (ny < 0 ? 9u : 0u) + 3 * third(nx, y) + third(nz, y);
-  return 36 + (nz < 0 ? 9u : 0u) + 3 * third(nx, z) + third(ny, z);
+// A face of a cube and one of nine squares on it, the middle one around the axis; and what is not finite.
+constexpr std::uint8_t directions = 54, not_a_number = directions;
+std::uint8_t direction_of(float nx, float ny, float nz) {
+  const float x = std::abs(nx), y = std::abs(ny), z = std::abs(nz);
+  const auto square = [](int face, float a, float b, float longest) {
+    const auto third = [longest](float c) { return (3 * c > -longest ? 1 : 0) + (3 * c > longest ? 1 : 0); };
+    return static_cast<std::uint8_t>(9 * face + 3 * third(a) + third(b));
+  };
+  if (x >= y && x >= z) return square(nx < 0 ? 1 : 0, ny, nz, x);
+  if (y >= z) return square(ny < 0 ? 3 : 2, nx, nz, y);
+  return square(nz < 0 ? 5 : 4, nx, ny, z);
 }
 
 // Counting sort by the keys below starts.size() - 1; starts[k] is then the place of the first with key k, the last the number of all.
@@ -87,69 +90,77 @@ void sort_by_key(std::span<const PlacedPoint> from, PlacedPoint* to, std::span<s
 }  // namespace
 
 void PointBlocks::arrange(const PointBatch& points, std::size_t first, std::size_t count) {
-  points_.clear();
   groups_.clear();
   not_finite_.clear();
-  points_.reserve(count);
-  for (std::size_t i = first; i < first + count; ++i) {
-    const PlacedPoint p{
-        {points.px[i], points.py[i], points.pz[i], points.nx[i], points.ny[i], points.nz[i]}, static_cast<std::uint32_t>(i - first), 0};
-    const bool finite = std::all_of(p.at.begin(), p.at.end(), [](float x) { return std::isfinite(x); });
-    if (finite)
-      points_.push_back(p);
-    else
-      not_finite_.push_back(p.index);
+  directions_.resize(count);
+  std::array<std::size_t, directions + 1> places{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = first + i;
+    const float nx = points.nx[k], ny = points.ny[k], nz = points.nz[k];
+    const bool finite = std::isfinite(points.px[k]) && std::isfinite(points.py[k]) && std::isfinite(points.pz[k]) && std::isfinite(nx) &&
+                        std::isfinite(ny) && std::isfinite(nz);
+    directions_[i] = finite ? direction_of(nx, ny, nz) : not_a_number;
+    ++places[directions_[i]];
+    if (!finite) not_finite_.push_back(static_cast<std::uint32_t>(i));
   }
-  other_.resize(points_.size());
-  if (!points_.empty()) divide({0, points_.size()}, false, 0);
+  points_.resize(count);
+  other_.resize(count);
+  std::array<Group, directions> whole{};
+  for (std::size_t d = 0, at = 0; d < directions; ++d) {
+    whole[d] = {at, places[d], false};
+    at += std::exchange(places[d], at);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (directions_[i] == not_a_number) continue;
+    const std::size_t k = first + i;
+    points_[places[directions_[i]]++] = {
+        {points.px[k], points.py[k], points.pz[k], points.nx[k], points.ny[k], points.nz[k]}, static_cast<std::uint32_t>(i), 0};
+  }
+  for (const Group& alike : whole)
+    if (alike.count > 0) divide(alike, 0);
 }
 
-void PointBlocks::divide(Range range, bool moved, int depth) {
-  const auto finish = [&](Range group, bool in_other) {
+void PointBlocks::divide(const Group& points, int depth) {
+  const auto finish = [&](Group group) {
     for (; group.count > longest_group; group.first += longest_group, group.count -= longest_group)
-      groups_.push_back({{group.first, longest_group}, in_other});
-    groups_.push_back({group, in_other});
+      groups_.push_back({group.first, longest_group, group.moved});
+    groups_.push_back(group);
   };
   // Deeper only where points lie at ever smaller scales.
-  if (range.count <= longest_group || depth > 40) return finish(range, moved);
-  const std::span<PlacedPoint> all(buffer(moved) + range.first, range.count);
-  const int halvings = std::clamp(static_cast<int>(std::bit_width(2 * range.count / longest_group)), 1, most_halvings);
+  if (points.count <= longest_group || depth > 40) return finish(points);
+  const std::span<PlacedPoint> all(buffer(points.moved) + points.first, points.count);
+  const int halvings = std::clamp(static_cast<int>(std::bit_width(2 * points.count / longest_group)), 1, most_halvings);
   const Cells cells(Extent(all), halvings);
   for (PlacedPoint& p : all) p.key = cells(p);
   std::array<std::uint32_t, (1u << most_halvings) + 1> places;
   const std::span<std::uint32_t> starts(places.data(), (std::size_t{1} << halvings) + 1);
-  sort_by_key(all, buffer(!moved) + range.first, starts);
-  Range pending{range.first, 0};
+  sort_by_key(all, buffer(!points.moved) + points.first, starts);
+  Group pending{points.first, 0, !points.moved};
   for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
-    const Range cell{range.first + starts[k], starts[k + 1] - starts[k]};
+    const Group cell{points.first + starts[k], starts[k + 1] - starts[k], !points.moved};
     if (pending.count > 0 && pending.count + cell.count > longest_group) {
-      finish(pending, !moved);
-      pending = {cell.first, 0};
+      finish(pending);
+      pending = {cell.first, 0, cell.moved};
     }
     if (cell.count > longest_group) {
-      divide(cell, !moved, depth + 1);
-      pending = {cell.first + cell.count, 0};
+      divide(cell, depth + 1);
+      pending = {cell.first + cell.count, 0, cell.moved};
     } else {
       pending.count += cell.count;
     }
   }
-  if (pending.count > 0) finish(pending, !moved);
+  if (pending.count > 0) finish(pending);
 }
 
-std::span<const PlacedPoint> PointBlocks::runs_of(const Group& group, std::vector<Range>& runs) {
-  constexpr int halvings = 6;
-  const std::span<PlacedPoint> all(buffer(group.moved) + group.range.first, group.range.count);
-  PlacedPoint* const ordered = buffer(!group.moved) + group.range.first;
-  starts_.resize((directions << halvings) + 1);
+std::span<const PlacedPoint> PointBlocks::ordered(const Group& group) {
+  constexpr int halvings = 7;
+  const std::span<PlacedPoint> all(buffer(group.moved) + group.first, group.count);
   const Cells cells(Extent(all), halvings);
-  for (PlacedPoint& p : all) p.key = (direction_of(p) << halvings) + cells(p);
-  sort_by_key(all, ordered, starts_);
-  runs.clear();
-  for (std::uint32_t direction = 0; direction < directions; ++direction) {
-    const std::size_t first = starts_[direction << halvings], end = starts_[(direction + 1) << halvings];
-    if (end > first) runs.push_back({first, end - first});
-  }
-  return {ordered, all.size()};
+  for (PlacedPoint& p : all) p.key = cells(p);
+  std::array<std::uint32_t, (1u << halvings) + 1> starts;
+  PlacedPoint* const to = buffer(!group.moved) + group.first;
+  sort_by_key(all, to, starts);
+  return {to, all.size()};
 }
 
 }  // namespace etendue::eval

@@ -1,4 +1,4 @@
-// Points put next to their neighbours: groups of some thousand in a box of space, and within them runs of alike normals.
+// Points put next to their neighbours: groups of up to some thousand, of alike normals and in a box of space.
 #pragma once
 
 #include "etendue/illuminance_batch.h"
@@ -23,25 +23,23 @@ class PointBlocks {
   // Points `first` to `first + count` of the batch, count < 2^32; those that are not finite are left out and listed.
   void arrange(const PointBatch& points, std::size_t first, std::size_t count);
 
-  struct Range {
-    std::size_t first, count;
-  };
   struct Group {
-    Range range;
+    std::size_t first, count;
     bool moved;  // to the other of both buffers
   };
   const std::vector<Group>& groups() const { return groups_; }
-  // The points of a group in order: by their normals' runs, counted from the group's first point, and in each neighbour after neighbour.
-  std::span<const PlacedPoint> runs_of(const Group& group, std::vector<Range>& runs);
+  // The points of a group, neighbour after neighbour.
+  std::span<const PlacedPoint> ordered(const Group& group);
   const std::vector<std::uint32_t>& not_finite() const { return not_finite_; }
 
  private:
-  void divide(Range range, bool moved, int depth);
+  void divide(const Group& points, int depth);
   PlacedPoint* buffer(bool moved) { return moved ? other_.data() : points_.data(); }
 
   std::vector<PlacedPoint> points_, other_;
   std::vector<Group> groups_;
-  std::vector<std::uint32_t> not_finite_, starts_;
+  std::vector<std::uint32_t> not_finite_;
+  std::vector<std::uint8_t> directions_;
 };
 
 }  // namespace etendue::eval

@@ -1,4 +1,4 @@
-// Points are put next to their neighbours (point_blocks.h). A run of them walks the tree of the lights' bounds; what it ends with, lights
+// Points are put next to their neighbours (point_blocks.h). A group of them walks the tree of the lights' bounds; what it ends with, lights
 // and parts of the tree, is where each of its blocks begins. There bounds are drawn closer and lights evaluated, what leaves the largest
 // error first, until the bounds of all that is left are within the tolerance at every point. Where half of the points are done they leave
 // the block, and the others go on with closer bounds. (Greedy refinement by bounds: Walter et al. 2005, Lightcuts.)
@@ -24,7 +24,7 @@ constexpr std::size_t points_at_once = std::size_t{1} << 20;
 constexpr double batch_error = 1e-5, batch_error_of_reach = 2e-6;
 // Half a unit in the last place, which every term adds to a sum, and its own product and factor to it.
 constexpr double float_rounding = 6e-8, double_rounding = 1.2e-16;
-// Up to this share of the tolerance a run leaves parts of the tree whole.
+// Up to this share of the tolerance a group leaves parts of the tree whole.
 constexpr double share_of_parts = 0.2;
 // Bounds cost much less than an evaluation that they may spare: a light's error counts for so much beside those of what has bounds yet to
 // be drawn closer.
@@ -75,14 +75,14 @@ class Undecided {
   }
   void push(const Entry& e, const Node& node) {
     heap_.push_back(e);
-    std::push_heap(heap_.begin(), heap_.end(), lower);
+    std::push_heap(heap_.begin(), heap_.end(), Lower());
     count(e, node, 1);
     lights_ += node.lights;
   }
   const Entry& largest() const { return heap_.front(); }
   void pop(const Node& node) {
     const Entry e = heap_.front();
-    std::pop_heap(heap_.begin(), heap_.end(), lower);
+    std::pop_heap(heap_.begin(), heap_.end(), Lower());
     heap_.pop_back();
     count(e, node, -1);
     lights_ -= node.lights;
@@ -90,7 +90,9 @@ class Undecided {
   }
 
  private:
-  static bool lower(const Entry& a, const Entry& b) { return a.rank < b.rank; }
+  struct Lower {
+    bool operator()(const Entry& a, const Entry& b) const { return a.rank < b.rank; }
+  };
   void count(const Entry& e, const Node& node, int sign) {
     if (!std::isfinite(e.error)) {
       sign > 0 ? ++unlimited_ : --unlimited_;
@@ -116,44 +118,39 @@ class Undecided {
   std::uint64_t lights_ = 0;
 };
 
-// Boxes of positions in the world, as wide as sums with the origin may be rounded, and of normals.
-struct Boxes {
-  Box positions, normals;
-  Boxes() = default;
-  Boxes(std::span<const PlacedPoint> points, const Vec3d& origin) {
-    std::array<float, 6> low = points[0].at, high = low;
-    for (const PlacedPoint& p : points) {
-      for (std::size_t k = 0; k < 6; ++k) low[k] = p.at[k] < low[k] ? p.at[k] : low[k];
-      for (std::size_t k = 0; k < 6; ++k) high[k] = p.at[k] > high[k] ? p.at[k] : high[k];
-    }
-    positions.low = origin + Vec3d{low[0], low[1], low[2]};
-    positions.high = origin + Vec3d{high[0], high[1], high[2]};
-    const auto widen = [](double& l, double& h, double o) {
-      const double rounding = 1e-15 * (std::max(std::abs(l), std::abs(h)) + std::abs(o));
-      l -= rounding, h += rounding;
-    };
-    widen(positions.low.x, positions.high.x, origin.x);
-    widen(positions.low.y, positions.high.y, origin.y);
-    widen(positions.low.z, positions.high.z, origin.z);
-    normals.low = {low[3], low[4], low[5]};
-    normals.high = {high[3], high[4], high[5]};
+Surroundings surroundings_of(std::span<const PlacedPoint> points, const Vec3d& origin) {
+  std::array<float, 6> low = points[0].at, high = low;
+  for (const PlacedPoint& p : points) {
+    for (std::size_t k = 0; k < 6; ++k) low[k] = p.at[k] < low[k] ? p.at[k] : low[k];
+    for (std::size_t k = 0; k < 6; ++k) high[k] = p.at[k] > high[k] ? p.at[k] : high[k];
   }
-};
+  Box positions, normals;
+  for (const std::array<float, 6>& c : {low, high}) {
+    positions.add(Vec3d{c[0], c[1], c[2]});
+    normals.add(Vec3d{c[3], c[4], c[5]});
+  }
+  Surroundings s{Around::positions(positions), Around::directions(normals)};
+  // Sums with the origin are rounded again.
+  for (int i = 0; i < 3; ++i) s.positions.half[i] += 2e-15 * std::abs(origin[i]);
+  s.positions.middle += origin;
+  return s;
+}
 
 // Points in work.
 struct Block {
   std::size_t count = 0;
   std::array<PlacedPoint, block_size> points;
   std::array<std::array<float, block_size>, 6> columns;
-  Boxes boxes;
+  Surroundings surroundings;
 
   std::span<const PlacedPoint> all() const { return {points.data(), count}; }
   void add(const PlacedPoint& p) { points[count++] = p; }
   // Once the points are there. Columns are whole vectors: the last point is repeated.
   void settle(const Vec3d& origin) {
-    boxes = Boxes(all(), origin);
-    for (std::size_t i = 0; i < padded(); ++i)
-      for (std::size_t k = 0; k < 6; ++k) columns[k][i] = points[std::min(i, count - 1)].at[k];
+    surroundings = surroundings_of(all(), origin);
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < 6; ++k) columns[k][i] = points[i].at[k];
+    for (std::size_t k = 0; k < 6; ++k) std::fill(columns[k].begin() + count, columns[k].begin() + padded(), columns[k][count - 1]);
   }
   std::size_t padded() const { return std::min((count + 15) / 16 * 16, block_size); }
   PointBatch batch(const Vec3d& origin) const {
@@ -181,9 +178,9 @@ Rgb tint_of(const Emitter& e) {
   return largest(colour) > 0 ? colour / largest(colour) : Rgb{};
 }
 
-bool below_horizon(const DistantEmitter& e, const Box& normals) {
-  double highest = 0;
-  for (int i = 0; i < 3; ++i) highest += std::max(normals.low[i] * e.towards[i], normals.high[i] * e.towards[i]);
+bool below_horizon(const DistantEmitter& e, const Around& normals) {
+  double highest = dot(e.towards, normals.middle);
+  for (int i = 0; i < 3; ++i) highest += std::abs(e.towards[i]) * normals.half[i];
   return highest < -std::sin(std::min(e.radius_rad, 0.5 * pi)) - 1e-6;
 }
 
@@ -201,10 +198,9 @@ struct RigBatch::Prepared {
 
 struct RigBatch::Workspace::Parts {
   PointBlocks points;
-  std::vector<PointBlocks::Range> runs;
-  Undecided parts;   // of the tree, on a run's way through it
-  Undecided of_run;  // where it ends
-  Undecided open;    // of a block
+  Undecided parts;     // of the tree, on a group's way through it
+  Undecided of_group;  // where it ends
+  Undecided open;      // of a block
   Block block, again;
   Sums<float> sums;
   Sums<double> exact;
@@ -217,7 +213,7 @@ std::uint32_t RigBatch::Prepared::build(std::span<const LightBound> bounds, std:
   const auto lights_here = static_cast<std::uint32_t>(which.size());
   nodes.push_back({bounds[which[0]], lights_here, which[0], 0, 0, tint_of(emitters[which[0]]), 0});
   if (lights_here == 1) return at;
-  const auto middle = [&](std::uint32_t i) { return bounds[i].places.low * 0.5 + bounds[i].places.high * 0.5; };
+  const auto middle = [&](std::uint32_t i) { return bounds[i].places.middle; };
   Box middles;
   for (const std::uint32_t i : which) middles.add(middle(i));
   const Vec3d edge = middles.high - middles.low;
@@ -227,8 +223,7 @@ std::uint32_t RigBatch::Prepared::build(std::span<const LightBound> bounds, std:
                    [&](std::uint32_t a, std::uint32_t b) { return middle(a)[axis] < middle(b)[axis]; });
   const std::uint32_t left = build(bounds, which.first(half)), right = build(bounds, which.subspan(half));
   const Node &a = nodes[left], &b = nodes[right];
-  Node both{a.bound, lights_here, 0, left, right, a.tint, 0};
-  both.bound.add(b.bound);
+  Node both{joined(a.bound, b.bound), lights_here, 0, left, right, a.tint, 0};
   const double emitted_a = a.bound.around + a.bound.facing, emitted = both.bound.around + both.bound.facing;
   const double share = emitted > 0 ? emitted_a / emitted : 0.5;
   both.tint = a.tint * share + b.tint * (1 - share);
@@ -284,7 +279,7 @@ struct RigBatch::Run {
   std::span<float> bound;
   RigCounts& counts;
 
-  std::uint32_t boxes = 0;  // counts those of runs and blocks
+  std::uint32_t boxes = 0;  // counts those of groups and blocks
 
   // Of a block.
   double reached = 0;  // what no point has more of from what is evaluated
@@ -292,11 +287,11 @@ struct RigBatch::Run {
   std::size_t terms = 0;
   bool repeating = false;  // in double
 
-  Entry entry(std::uint32_t node, const Boxes& where, bool of_block = true) {
+  Entry entry(std::uint32_t node, const Surroundings& where, bool of_block = true) {
     ++counts.bounds;
     const Node& n = rig.nodes[node];
     const double rank = of_block && n.left == 0 ? bounds_first : 1;
-    const Bound b = bound_at(n.bound, where.positions, where.normals);
+    const Bound b = bound_at(n.bound, where);
     const double error = 0.5 * (b.most - b.least) + n.spread * b.most;
     if (!(b.least > 0 && error < b.most)) return {0, b.most, b.reach, rank * b.most, node, boxes};
     return {0.5 * (b.most + b.least), error, b.reach, rank * error, node, boxes};
@@ -327,16 +322,16 @@ struct RigBatch::Run {
 };
 
 void RigBatch::Run::walk(std::span<const PlacedPoint> points) {
-  const Boxes here(points, origin);
+  const Surroundings here = surroundings_of(points, origin);
   ++boxes;
-  work.of_run.clear();
+  work.of_group.clear();
   work.parts.clear();
   double lights = 0;
   const auto offer = [&](std::uint32_t node) {
     const Entry e = entry(node, here, false);
     if (!(e.most() > 0)) return unseen(e, points.size());
     const bool one = is_light(e);
-    (one ? work.of_run : work.parts).push(e, rig.nodes[node]);
+    (one ? work.of_group : work.parts).push(e, rig.nodes[node]);
     if (one && std::isfinite(e.error)) lights += e.most();
   };
   if (!rig.nodes.empty()) offer(0);
@@ -349,7 +344,7 @@ void RigBatch::Run::walk(std::span<const PlacedPoint> points) {
   while (!work.parts.empty()) {
     const Entry e = work.parts.largest();
     work.parts.pop(rig.nodes[e.node]);
-    work.of_run.push(e, rig.nodes[e.node]);
+    work.of_group.push(e, rig.nodes[e.node]);
   }
 }
 
@@ -414,12 +409,11 @@ void RigBatch::Run::evaluate(std::uint32_t light, double most, double reach_of_i
 
 template <class T>
 void RigBatch::Run::evaluate_unbounded(Sums<T>& sums) {
-  const Boxes& boxes = work.block.boxes;
+  const Surroundings& here = work.block.surroundings;
   for (const Unbounded& u : rig.unbounded) {
     ++counts.bounds;
     const auto* distant = std::get_if<DistantEmitter>(&rig.emitters[u.light].shape);
-    const bool hidden = distant != nullptr ? below_horizon(*distant, boxes.normals)
-                                           : u.place && !(bound_at(*u.place, boxes.positions, boxes.normals).most > 0);
+    const bool hidden = distant != nullptr ? below_horizon(*distant, here.normals) : u.place && !(bound_at(*u.place, here).most > 0);
     if (!hidden)
       evaluate(u.light, Box::infinite, Box::infinite, sums);
     else if (!repeating)
@@ -492,7 +486,7 @@ void RigBatch::Run::solve(Sums<T>& sums) {
   settle();
   sums.r.fill(0), sums.g.fill(0), sums.b.fill(0);
   evaluate_unbounded(sums);
-  work.open = work.of_run;
+  work.open = work.of_group;
   while (block.count > 0) {
     if (work.open.empty() || work.open.error() <= std::max(absolute, relative * (reached + work.open.standing()))) {
       const std::size_t done = judge(sums);
@@ -513,12 +507,12 @@ void RigBatch::Run::solve(Sums<T>& sums) {
     const Node& node = rig.nodes[e.node];
     work.open.pop(node);
     if (e.boxes != boxes) {
-      push(entry(e.node, block.boxes));
+      push(entry(e.node, block.surroundings));
     } else if (is_light(e)) {
       evaluate(node.light, e.most(), e.reach, sums);
     } else {
-      push(entry(node.left, block.boxes));
-      push(entry(node.right, block.boxes));
+      push(entry(node.left, block.surroundings));
+      push(entry(node.right, block.surroundings));
     }
   }
 }
@@ -544,11 +538,9 @@ Result<RigCounts> RigBatch::illuminance(const PointBatch& points, const Toleranc
     }
     counts.without += work.points.not_finite().size();
     for (const PointBlocks::Group& group : work.points.groups()) {
-      const std::span<const PlacedPoint> ordered = work.points.runs_of(group, work.runs);
-      for (const PointBlocks::Range& r : work.runs) {
-        run.walk(ordered.subspan(r.first, r.count));
-        run.blocks(ordered.subspan(r.first, r.count));
-      }
+      const std::span<const PlacedPoint> ordered = work.points.ordered(group);
+      run.walk(ordered);
+      run.blocks(ordered);
     }
   }
   return counts;
