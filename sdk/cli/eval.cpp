@@ -207,6 +207,16 @@ struct FloatPoints {
   double moved_m = 0;  // the furthest that a point was by rounding
 };
 
+// What a surface facing the light gets at most, where a LightBatch errs by it: the luminance times a solid angle of 1, the intensity over
+// the distance squared, the illuminance of a true direction. Lines are evaluated one by one.
+double facing(const Emitter& emitter, const Rgb& scale, const Vec3d& position) {
+  if (std::holds_alternative<eval::LineEmitter>(emitter.shape)) return 0;
+  const auto* punctual = std::get_if<eval::PunctualEmitter>(&emitter.shape);
+  if (punctual == nullptr) return largest(scale);
+  const Vec3d to = punctual->position - position;
+  return largest(scale) / std::max(dot(to, to), 1e-280);
+}
+
 std::vector<Answer> Evaluator::operator()(const Emitter& emitter, std::span<const PointRow> points) const {
   std::vector<Answer> answers;
   answers.reserve(points.size());
@@ -223,8 +233,8 @@ std::vector<Answer> Evaluator::operator()(const Emitter& emitter, std::span<cons
       answers.push_back((*this)(emitter, points[i]));
       continue;
     }
-    const Rgb value = emitter.radiance * static_cast<double>(sr[i]);
-    answers.push_back({value, 1e-5 * largest(value) + 2e-6 * largest(emitter.radiance), "fast"});
+    const Rgb value = batch->scale() * static_cast<double>(sr[i]);
+    answers.push_back({value, 1e-5 * largest(value) + 2e-6 * facing(emitter, batch->scale(), points[i].position), "fast"});
   }
   return answers;
 }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t block_size = 128;
 constexpr std::size_t points_at_once = std::size_t{1} << 20;
-// Of LightBatch: of the value, and of the luminance times the solid angle, which is at most 1 there.
+// Of LightBatch: of the value, and of what a surface facing the light gets.
 constexpr double batch_error = 1e-5, batch_error_of_reach = 2e-6;
 // Half a unit in the last place, which every term adds to a sum, and its own product and factor to it.
 constexpr double float_rounding = 6e-8, double_rounding = 1.2e-16;
@@ -41,7 +41,7 @@ double largest(const Rgb& c) { return std::max({std::abs(c.x), std::abs(c.y), st
 
 struct Light {
   std::optional<LightBatch> batch;  // none: one point after the other, in double
-  Vec3f colour;
+  Rgb colour;                       // of the emission
 };
 // One without an upper bound, though perhaps with one of where it is seen.
 struct Unbounded {
@@ -172,12 +172,6 @@ float as_float(double x) {
   return static_cast<float>(std::clamp(x, -most, most));
 }
 
-Rgb tint_of(const Emitter& e) {
-  const auto* punctual = std::get_if<PunctualEmitter>(&e.shape);
-  const Rgb colour = punctual != nullptr ? punctual->intensity : e.radiance;
-  return largest(colour) > 0 ? colour / largest(colour) : Rgb{};
-}
-
 bool below_horizon(const DistantEmitter& e, const Around& normals) {
   double highest = dot(e.towards, normals.middle);
   for (int i = 0; i < 3; ++i) highest += std::abs(e.towards[i]) * normals.half[i];
@@ -204,14 +198,15 @@ struct RigBatch::Workspace::Parts {
   Block block, again;
   Sums<float> sums;
   Sums<double> exact;
-  std::array<float, block_size> sr;
+  std::array<float, block_size> values;
 };
 
 // Halves of equal number across the longest edge of the box of the lights' middles.
 std::uint32_t RigBatch::Prepared::build(std::span<const LightBound> bounds, std::span<std::uint32_t> which) {
   const auto at = static_cast<std::uint32_t>(nodes.size());
   const auto lights_here = static_cast<std::uint32_t>(which.size());
-  nodes.push_back({bounds[which[0]], lights_here, which[0], 0, 0, tint_of(emitters[which[0]]), 0});
+  const Rgb& colour = lights[which[0]].colour;
+  nodes.push_back({bounds[which[0]], lights_here, which[0], 0, 0, largest(colour) > 0 ? colour / largest(colour) : Rgb{}, 0});
   if (lights_here == 1) return at;
   const auto middle = [&](std::uint32_t i) { return bounds[i].places.middle; };
   Box middles;
@@ -238,13 +233,13 @@ RigBatch::RigBatch(std::vector<Emitter> emitters) {
   std::vector<std::uint32_t> bounded;
   for (std::uint32_t i = 0; i < emitters.size(); ++i) {
     const Emitter& e = emitters[i];
-    Light light;
-    if (Result<LightBatch> batch = LightBatch::of(e); batch && largest(e.radiance) > 0) {
+    Light light{std::nullopt, e.radiance};
+    if (Result<LightBatch> batch = LightBatch::of(e)) {
+      light.colour = batch->scale();
       light.batch = std::move(*batch);
-      light.colour = vec_cast<float>(e.radiance);
     }
+    prepared->out_of_gamut = prepared->out_of_gamut || std::min({light.colour.x, light.colour.y, light.colour.z}) < 0;
     prepared->lights.push_back(std::move(light));
-    prepared->out_of_gamut = prepared->out_of_gamut || std::min({e.radiance.x, e.radiance.y, e.radiance.z}) < 0;
     if (const std::optional<LightBound> bound = light_bound(e)) {
       bounds[i] = *bound;
       bounded.push_back(i);
@@ -283,7 +278,7 @@ struct RigBatch::Run {
 
   // Of a block.
   double reached = 0;  // what no point has more of from what is evaluated
-  double reach = 0;    // cd/m2 times solid angle of the same
+  double reach = 0;    // that of Bound, of the same
   std::size_t terms = 0;
   bool repeating = false;  // in double
 
@@ -376,7 +371,7 @@ void RigBatch::Run::settle() {
   ++boxes;
 }
 
-// `most` and `reach_of_it`: its bounds, infinite where there are none.
+// `most` and `reach_of_it`: its bounds, for lights that LightBatch takes.
 template <class T>
 void RigBatch::Run::evaluate(std::uint32_t light, double most, double reach_of_it, Sums<T>& sums) {
   const Block& block = work.block;
@@ -385,11 +380,12 @@ void RigBatch::Run::evaluate(std::uint32_t light, double most, double reach_of_i
   if constexpr (std::is_same_v<T, float>) {
     const Light& l = rig.lights[light];
     const std::size_t count = block.padded();
-    if (l.batch && l.batch->projected_solid_angles(block.batch(origin), std::span(work.sr.data(), count), 0)) {
+    if (l.batch && l.batch->projected_solid_angles(block.batch(origin), std::span(work.values.data(), count), 0)) {
+      const Vec3f colour = vec_cast<float>(l.colour);
       for (std::size_t i = 0; i < count; ++i) {
-        sums.r[i] += work.sr[i] * l.colour.x;
-        sums.g[i] += work.sr[i] * l.colour.y;
-        sums.b[i] += work.sr[i] * l.colour.z;
+        sums.r[i] += work.values[i] * colour.x;
+        sums.g[i] += work.values[i] * colour.y;
+        sums.b[i] += work.values[i] * colour.z;
       }
       reached += most;
       reach += reach_of_it;
@@ -414,8 +410,10 @@ void RigBatch::Run::evaluate_unbounded(Sums<T>& sums) {
     ++counts.bounds;
     const auto* distant = std::get_if<DistantEmitter>(&rig.emitters[u.light].shape);
     const bool hidden = distant != nullptr ? below_horizon(*distant, here.normals) : u.place && !(bound_at(*u.place, here).most > 0);
+    // Of what LightBatch takes: an environment's luminance, what a true direction gives a surface facing it.
+    const double emitted = largest(rig.lights[u.light].colour);
     if (!hidden)
-      evaluate(u.light, Box::infinite, Box::infinite, sums);
+      evaluate(u.light, pi * emitted, emitted, sums);
     else if (!repeating)
       counts.skipped_unseen += work.block.count;
   }
