@@ -89,6 +89,13 @@ HWY_INLINE V over_disk(D d, const PlacedDisk& light, const Point<V>& point, M& d
     const V rim = hn::MulAdd(whole, turned, hn::MulSub(hn::Mul(height, n_g), across, hn::Mul(n_a, e)));
     const V part = hn::MulAdd(number(d, 0.25), rim, hn::Mul(number(d, 0.5), chord));
     value = hn::IfThenElse(cut_and_lit, part, value);
+    if constexpr (in_floats<D>) {
+      // The terms of a cut rim are of the order 1, whatever is left of them.
+      const V per_d = near_inverse_sqrt(d, d2),
+              solid_angle = hn::Mul(hn::Mul(number(d, pi), hn::Mul(r2, height)), hn::Mul(per_d, hn::Mul(per_d, per_d)));
+      const V allowed = hn::MulAdd(value, number(d, 7), hn::Mul(solid_angle, number(d, 1.4)));
+      doubtful = hn::Or(doubtful, hn::And(cut_and_lit, hn::Lt(allowed, number(d, 0.25))));
+    }
   }
   return hn::IfThenElseZero(lit, hn::Max(value, zero));
 }
