@@ -62,6 +62,28 @@ double whole_capsule(const Vec3d& a, const Vec3d& axis, double length_m, double 
   return sides + cap(a_x, -a_x) + cap(b_x, b_x);
 }
 
+// A disk over the horizon, its centre and its normal towards the point's side relative to the point: symbols and derivation in
+// disk_batch.cpp.
+double disk_form(const Vec3d& centre, const Vec3d& facing, double radius) {
+  const double height = -dot(centre, facing), up = centre.z, n_a = -facing.z, n_g2 = facing.x * facing.x + facing.y * facing.y;
+  const double r2 = radius * radius, d2 = dot(centre, centre);
+  const bool cut = up * up < r2 * n_g2;
+  if (!(height > 0) || (!cut && up <= 0)) return 0;
+  const double k = d2 - r2, m = d2 + r2, four_r2h = 4 * r2 * height, w = std::sqrt(k * k + four_r2h * height);
+  const double w_less_k = k > 0 ? four_r2h * height / (w + k) : w - k, n_c = up - n_a * height;
+  const double whole = (n_a * w_less_k + four_r2h * n_c / (m + w)) / w;
+  if (!cut) return std::max(0.5 * pi * whole, 0.0);
+  const double n_g = std::sqrt(n_g2), from = height / n_g, from2 = from * from;
+  const Vec3d rest = Vec3d{0, 0, 1} + facing * n_a;
+  const double c_g = dot(rest, centre) / n_g, c_t = std::abs(centre.x * facing.y - centre.y * facing.x) / n_g;
+  const double s0 = -up / n_g, a2 = std::max((radius - s0) * (radius + s0), 0.0), a = std::sqrt(a2), c2 = c_g * c_g + c_t * c_t;
+  const double v = from2 + c_t * c_t + a2 + w, x = (0.5 * v - a * c_g) * (0.5 * v + a * c_g) + c_t * c_t * (s0 - a) * (s0 + a);
+  const double e = -2 * std::atan2(a * (c_g * v + 2 * c_t * c_t * s0), x), nearer = (c_t - a) * (c_t - a) + from2;
+  const double turned = 2 * std::atan2(a, s0) + e, chord = std::atan2(2 * a * from, (c_t - a) * (c_t + a) + from2);
+  const double across = c2 < 1e-30 * r2 ? -8 * a / (m + w) : (c_g * e - c_t * std::log1p(4 * a * c_t / nearer)) / c2;
+  return std::max(0.25 * (whole * turned - n_a * e + height * n_g * across) + 0.5 * chord, 0.0);
+}
+
 struct ClosedForm {
   const Emitter& emitter;
   const Vec3d& position;
@@ -85,6 +107,11 @@ struct ClosedForm {
     if (!(d > e.radius)) return outlines();
     const double cosine = std::sqrt((d - e.radius) * (d + e.radius)) / d;
     return emitter.radiance * cap_form(centre / d, e.radius / d, cosine, horizons);
+  }
+  Rgb operator()(const DiskEmitter& e) const {
+    if (horizons.distinct || !(e.radius > 0)) return outlines();
+    const Vec3d centre = frame.point(e.centre), normal = frame.vector(e.normal);
+    return emitter.radiance * disk_form(centre, emitter.two_sided && dot(centre, normal) > 0 ? -normal : normal, e.radius);
   }
   Rgb operator()(const PolygonEmitter& e) const {
     if (e.vertices.size() < 3) return {};
