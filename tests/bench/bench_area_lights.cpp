@@ -35,6 +35,22 @@ EmitterShape shape_of(Kind kind) {
       return protocol::rectangle({}, {1, 0, 0}, {0, 1, 0}, 1, 0.7);
   }
 }
+// A dome of triangles that emit outwards.
+MeshEmitter dome() {
+  constexpr int rows = 8;
+  const auto at = [](int row, int column) {
+    const double theta = 0.5 * pi * row / rows, phi = 2 * pi * column / rows;
+    return Vec3d{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)} * 0.3;
+  };
+  MeshEmitter mesh;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < rows; ++column) {
+      mesh.triangles.push_back({at(row, column), at(row + 1, column), at(row + 1, column + 1)});
+      if (row > 0) mesh.triangles.push_back({at(row, column), at(row + 1, column + 1), at(row, column + 1)});
+    }
+  }
+  return mesh;
+}
 const char* name_of(Kind kind) {
   return kind == Kind::sphere ? "sphere" : kind == Kind::disk ? "disk" : kind == Kind::capsule ? "capsule" : "rectangle";
 }
@@ -46,10 +62,10 @@ struct Case {
   std::vector<float> px, py, pz, nx, ny, nz, sr;
   PointBatch batch() const { return {px, py, pz, nx, ny, nz, {}}; }
 
-  // A light without area, points facing it and turned away.
+  // Points facing a light and turned away from it.
   explicit Case(const EmitterShape& shape) : sr(count) {
     protocol::Random random(11);
-    light.shape = shape;
+    light = protocol::white(shape);
     prepared = *LightBatch::of(light);
     while (px.size() < count) add(random.direction() * random.uniform(0.5, 6), random.direction());
   }
@@ -122,11 +138,12 @@ int main(int argc, char** argv) {
     }
   }
   const Rgb one{1, 1, 1};
-  const std::vector<std::pair<const char*, EmitterShape>> thin{{"line", LineEmitter{{-0.5, 0, 0}, {0.5, 0, 0}, one}},
-                                                               {"point light", PunctualEmitter{{}, {}, one, PointShape{}}},
-                                                               {"spot", PunctualEmitter{{}, {}, one, SpotShape{0.3, 0.8}}},
-                                                               {"sun", DistantEmitter{{0, 0, 1}, one, 0.0046}}};
-  for (const auto& [name, shape] : thin) {
+  const std::vector<std::pair<const char*, EmitterShape>> others{{"mesh of 120 triangles", dome()},
+                                                                 {"line", LineEmitter{{-0.5, 0, 0}, {0.5, 0, 0}, one}},
+                                                                 {"point light", PunctualEmitter{{}, {}, one, PointShape{}}},
+                                                                 {"spot", PunctualEmitter{{}, {}, one, SpotShape{0.3, 0.8}}},
+                                                                 {"sun", DistantEmitter{{0, 0, 1}, one, 0.0046}}};
+  for (const auto& [name, shape] : others) {
     cases.push_back(std::make_unique<Case>(shape));
     add_rows(table, name, *cases.back());
   }

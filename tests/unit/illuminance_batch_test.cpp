@@ -123,6 +123,55 @@ TEST(IlluminanceBatch, PolygonsOfAnyShapeAtPointsAllAround) {
   });
 }
 
+// A ball of triangles, wound outwards.
+MeshEmitter ball_of_triangles(const Vec3d& centre, double radius, int rows) {
+  MeshEmitter mesh;
+  const auto at = [&](int row, int column) {
+    const double theta = pi * row / rows, phi = pi * (2 * column + row) / rows;
+    return centre + Vec3d{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)} * radius;
+  };
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < rows; ++column) {
+      mesh.triangles.push_back({at(row, column), at(row + 1, column), at(row, column + 1)});
+      mesh.triangles.push_back({at(row, column + 1), at(row + 1, column), at(row + 1, column + 1)});
+    }
+  }
+  return mesh;
+}
+
+// The bound of a mesh is that of all its triangles together; what a closed convex one shows is its solid angle.
+TEST(IlluminanceBatch, MeshesAreTheSumOfTheirTriangles) {
+  on_each_instruction_set([] {
+    Random random(12);
+    for (const double distance : {0.0, 0.05, 3.0, 1000.0}) {
+      Points points;
+      points.origin = {2e3, -1e3, 5e2};
+      const Vec3d centre = points.origin + random.direction();
+      Emitter light = protocol::white(ball_of_triangles(centre, 0.7, 8));
+      light.two_sided = distance == 0;  // from inside
+      for (int i = 0; i < 300; ++i) points.add(centre + random.direction() * (distance == 0 ? 0.5 : 0.7 + distance), random.direction());
+      points.add({std::numeric_limits<double>::quiet_NaN(), 0, 0}, {0, 0, 1});
+      std::vector<float> sr(points.size());
+      const BatchOutcome done = LightBatch::of(light)->projected_solid_angles(points.batch(), sr, -1);
+      ASSERT_TRUE(done.ok());
+      EXPECT_EQ(*done, 1u);
+      EXPECT_EQ(sr.back(), -1);
+      for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const Vec3d p = points.position(i);
+        const double expected = protocol::lux_at(light, p, points.normal(i)), facing = protocol::lux_at(light, p, normalised(centre - p));
+        if (distance == 0) {
+          EXPECT_NEAR(sr[i], pi, 1e-5);
+        }
+        ASSERT_NEAR(sr[i], expected, 1e-5 * expected + 2e-6 * facing) << distance << ' ' << i;
+      }
+    }
+    // Without a surface: dark.
+    Points points;
+    points.add({0, 0, 0}, {0, 0, 1});
+    EXPECT_EQ(evaluated(protocol::white(MeshEmitter{{{Vec3d{0, 0, 1}, Vec3d{1, 0, 1}, Vec3d{2, 0, 1}}}}), points)[0], 0);
+  });
+}
+
 // Distances from 1e-5 to 1e6 of the size, sizes from a millimetre to a kilometre, far from the world's origin.
 TEST(IlluminanceBatch, HoldsAtEveryScale) {
   on_each_instruction_set([] {

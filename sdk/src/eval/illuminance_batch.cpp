@@ -42,6 +42,7 @@ std::shared_ptr<const LightBatch::Shape> batch_of(const Emitter& white) {
     return polygon_batch(white);
   }
   if (std::holds_alternative<TubeEmitter>(white.shape)) return tube_batch(white);
+  if (std::holds_alternative<MeshEmitter>(white.shape)) return mesh_batch(white);
   if (std::holds_alternative<LineEmitter>(white.shape)) return line_batch(white);
   if (std::holds_alternative<PunctualEmitter>(white.shape)) return punctual_batch(white);
   if (std::holds_alternative<DistantEmitter>(white.shape)) return distant_batch(white);

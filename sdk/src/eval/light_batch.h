@@ -22,6 +22,7 @@ class LightBatch::Shape {
 std::shared_ptr<const LightBatch::Shape> sphere_batch(const Emitter& white);
 std::shared_ptr<const LightBatch::Shape> rect_batch(const Emitter& white);
 std::shared_ptr<const LightBatch::Shape> tube_batch(const Emitter& white);
+std::shared_ptr<const LightBatch::Shape> mesh_batch(const Emitter& white);
 std::shared_ptr<const LightBatch::Shape> line_batch(const Emitter& white);
 std::shared_ptr<const LightBatch::Shape> punctual_batch(const Emitter& white);
 std::shared_ptr<const LightBatch::Shape> distant_batch(const Emitter& white);
