@@ -12,11 +12,11 @@ import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-RIG, POINTS = str(HERE / "data/two_lights.rig.json"), str(HERE / "data/points.csv")
+RIG, PUNCTUAL, POINTS = (str(HERE / "data" / name) for name in ("two_lights.rig.json", "punctual.rig.json", "points.csv"))
 
 
-def rows(etendue, *more):
-    run = subprocess.run([etendue, "eval", RIG, "--points", POINTS, "-q", *more], capture_output=True, text=True, check=True)
+def rows(etendue, *more, rig=RIG):
+    run = subprocess.run([etendue, "eval", rig, "--points", POINTS, "-q", *more], capture_output=True, text=True, check=True)
     return list(csv.DictReader(io.StringIO(run.stdout)))
 
 
@@ -66,6 +66,11 @@ def main():
         stats = json.loads(subprocess.run([etendue, "eval", RIG, "--points", POINTS, "--json", "--stats", *options], capture_output=True, text=True,
                                           check=True).stdout)["stats"]
         good.append(stats["evaluations"] + stats["skipped_unseen"] + stats["skipped_small"] == 2 * stats["points"] > 0)
+    # Lights without an area, in floats one by one and as a sum.
+    punctual, quick = (rows(etendue, *more, rig=PUNCTUAL) for more in ([], ["--method", "fast"]))
+    good.append(agree("punctual fast", punctual, quick))
+    good.append(all(any(float(r["r"]) > 0 for r in quick if r["light"] == name) for name in ("point", "near", "spot", "line", "moon")))
+    good.append(agree("punctual sum", rows(etendue, "--sum", rig=PUNCTUAL), rows(etendue, "--sum", "--method", "fast", rig=PUNCTUAL)))
     document = json.loads(subprocess.run([etendue, "eval", RIG, "--points", POINTS, "--json"], capture_output=True, text=True, check=True).stdout)
     good.append([str(r["index"]) for r in document["result"]] == [r["index"] for r in exact])
     good.append(all(apart(r, e) == 0 for r, e in zip(document["result"], exact)))
