@@ -16,7 +16,7 @@ struct RigCounts {
   std::uint64_t evaluated = 0;
   std::uint64_t skipped_unseen = 0;  // below the horizon, behind the light, out of its range: nothing is lost
   std::uint64_t skipped_small = 0;   // within the tolerance
-  std::uint64_t repeated = 0;        // of those evaluated, once more in double, where floats are not within the tolerance
+  std::uint64_t repeated = 0;        // evaluated once more, where floats are not within the tolerance: for fewer points, or in double
   std::uint64_t bounds = 0;          // upper bounds computed, of one light or several and of one point or many
   std::uint64_t without = 0;         // points that are not finite
 };

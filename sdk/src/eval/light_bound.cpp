@@ -7,6 +7,9 @@
 // where n is its normal at y, n.(x - y) / r <= cos phi, the angle around the axis between n and x, because (rho cos phi - R) <= cos phi
 // sqrt((rho - R cos phi)^2 + R^2 sin^2 phi); the integral over phi gives 2 R l / d^2. In the same way the half spheres at its ends give
 // together pi R^2 / d^2 at most.
+// Seen along its axis a tube's side is shorter: q / r, q = sqrt((rho - R cos phi)^2 + R^2 sin^2 phi) <= rho + R, is one more factor. From
+// below, the integral over phi of (rho cos phi - R) where that is positive is 2 (sqrt(rho^2 - R^2) - R acos(R / rho)) >= 2 (rho - pi R /
+// 2): their difference falls with rho, to 0. A line has R = 0, and its intensity for 2 R l L.
 #include "light_bound.h"
 
 #include "etendue/intensity_web.h"
@@ -106,8 +109,13 @@ struct Bounded {
     const Vec3d r{e.radius, e.radius, e.radius};
     Box places = around_point(e.a, r);
     places.add(around_point(e.b, r));
-    const double end = e.caps == Caps::none ? 0 : pi * e.radius * e.radius;
-    return area(places, 2 * e.radius * length(e.b - e.a) + end);
+    const double end = e.caps == Caps::none ? 0 : pi * e.radius * e.radius, side = 2 * e.radius * length(e.b - e.a);
+    LightBound b = area(places, side + end);
+    b.axis = normalised(e.b - e.a);
+    b.across = b.sure_across = luminance * side;
+    b.hidden_m = 0.5 * pi * e.radius;
+    b.radius_m = e.radius;
+    return b;
   }
   std::optional<LightBound> operator()(const LineEmitter& e) const {
     Box ends;
@@ -115,7 +123,8 @@ struct Bounded {
     LightBound b;
     b.places = Around::positions(ends);
     b.normals = everywhere;
-    b.around = largest(e.intensity);
+    b.around = b.across = b.sure_across = largest(e.intensity);
+    b.axis = normalised(e.b - e.a);
     b.most = b.reach = Box::infinite;
     return b;
   }
@@ -196,14 +205,23 @@ Bound bound_at(const LightBound& light, const Surroundings& points) {
   if (nearest >= light.range_m) return {};
   if (light.least_cosine >= 0 && !(light_high > 0 && light_high >= light.least_cosine * nearest)) return {};
   if (!(nearest2 > 0)) return {light.most, 0, light.reach};
-  const double emitted = (light.around + light.facing * share(light_high, nearest)) / nearest2;
+  double around = light.around, sure_across = 0;
+  if (light.across > 0) {
+    const Vec3d apart = points.positions.middle - light.places.middle;
+    const double along = dot(apart, light.axis), distance = std::sqrt(std::max(dot(apart, apart) - along * along, 0.0));
+    // The square root of what cancels has half of the digits.
+    const double half = length(points.positions.half) + 1e-7 * length(apart);
+    around -= light.across * (1 - share(distance + half + light.radius_m, nearest));
+    sure_across = light.sure_across * std::max(distance - half - light.hidden_m, 0.0);
+  }
+  const double emitted = (around + light.facing * share(light_high, nearest)) / nearest2;
   // Normals are units but for the rounding of floats.
   Bound bound;
   bound.most = std::min(1.000001 * emitted * share(surface_high, nearest) * window_at(light.window, nearest), light.most);
   bound.reach = std::min(emitted, light.reach);
   if (surface_low > 0) {
     const double furthest = std::sqrt(furthest2);
-    bound.least = 0.999999 * (light.sure_around + light.sure_facing * std::max(light_low, 0.0) / furthest) * surface_low /
+    bound.least = 0.999999 * (light.sure_around + (light.sure_facing * std::max(light_low, 0.0) + sure_across) / furthest) * surface_low /
                   (furthest2 * furthest) * window_at(light.window, furthest);
   }
   return bound;

@@ -43,6 +43,10 @@ struct LightBound {
   double around = 0, facing = 0;
   // Of it, what is certain where all of the lights is seen: the same with the distance of the furthest.
   double sure_around = 0, sure_facing = 0;
+  // Of one tube or line: what of `around` comes from its side, which is seen in proportion to the distance across the axis over that to
+  // the point; and of it, for certain, where the first is larger than `hidden_m` and by what is left of it.
+  Vec3d axis;
+  double across = 0, sure_across = 0, hidden_m = 0, radius_m = 0;
   double most = 0;   // lx, at any distance
   double reach = 0;  // most of Bound's
   // No light goes where the cosine with all normals is less; -1: it goes everywhere.

@@ -18,7 +18,7 @@
 namespace etendue::eval {
 namespace {
 
-constexpr std::size_t block_size = 128;
+constexpr std::size_t block_size = 128, few = 8;
 constexpr std::size_t points_at_once = std::size_t{1} << 20;
 // Of LightBatch: of the value, and of what a surface facing the light gets.
 constexpr double batch_error = 1e-5, batch_error_of_reach = 2e-6;
@@ -196,6 +196,7 @@ struct RigBatch::Workspace::Parts {
   Undecided of_group;  // where it ends
   Undecided open;      // of a block
   Block block, again;
+  std::vector<PlacedPoint> waiting;
   Sums<float> sums;
   Sums<double> exact;
   std::array<float, block_size> values;
@@ -280,7 +281,7 @@ struct RigBatch::Run {
   double reached = 0;  // what no point has more of from what is evaluated
   double reach = 0;    // that of Bound, of the same
   std::size_t terms = 0;
-  bool repeating = false;  // in double
+  bool repeating = false;
 
   Entry entry(std::uint32_t node, const Surroundings& where, bool of_block = true) {
     ++counts.bounds;
@@ -298,6 +299,7 @@ struct RigBatch::Run {
 
   void walk(std::span<const PlacedPoint> points);
   void blocks(std::span<const PlacedPoint> points);
+  void repeat();
 
   template <class T>
   void solve(Sums<T>& sums);
@@ -353,12 +355,23 @@ void RigBatch::Run::blocks(std::span<const PlacedPoint> points) {
     for (const PlacedPoint& p : points.first(count)) block.add(p);
     points = points.subspan(count);
     solve(work.sums);
-    if (work.again.count == 0) continue;
-    std::swap(block, work.again);
-    repeating = true;
-    solve(work.exact);
-    repeating = false;
+    if (work.again.count > 0) repeat();
   }
+}
+
+// Points that floats were not enough for: few at a time, whose bounds are closer, and what is left of them in double.
+void RigBatch::Run::repeat() {
+  repeating = true;
+  work.waiting.assign(work.again.points.begin(), work.again.points.begin() + static_cast<std::ptrdiff_t>(work.again.count));
+  for (std::size_t first = 0; first < work.waiting.size(); first += few) {
+    work.block.count = work.again.count = 0;
+    for (std::size_t i = first; i < std::min(first + few, work.waiting.size()); ++i) work.block.add(work.waiting[i]);
+    solve(work.sums);
+    if (work.again.count == 0) continue;
+    std::swap(work.block, work.again);
+    solve(work.exact);
+  }
+  repeating = false;
 }
 
 void RigBatch::Run::push(const Entry& e) {
@@ -448,7 +461,7 @@ std::size_t RigBatch::Run::judge(Sums<T>& sums) {
   std::size_t done = 0;
   for (std::size_t i = 0; i < work.block.count; ++i) {
     const T p = std::max(std::max(sums.r[i] + r, sums.g[i] + g), sums.b[i] + b);
-    sums.done[i] = (p <= low || p >= high) && p <= std::numeric_limits<T>::max();
+    sums.done[i] = ((p <= low) | (p >= high)) & (p <= std::numeric_limits<T>::max());
     done += sums.done[i] ? 1 : 0;
   }
   return done;
@@ -478,7 +491,9 @@ void RigBatch::Run::leave(Sums<T>& sums, bool all) {
 
 template <class T>
 void RigBatch::Run::solve(Sums<T>& sums) {
+  constexpr bool in_floats = std::is_same_v<T, float>;
   Block& block = work.block;
+  double judge_at = Box::infinite;  // the error of what is open: not again before it has become less
   reached = reach = 0;
   terms = 0;
   settle();
@@ -486,13 +501,15 @@ void RigBatch::Run::solve(Sums<T>& sums) {
   evaluate_unbounded(sums);
   work.open = work.of_group;
   while (block.count > 0) {
-    if (work.open.empty() || work.open.error() <= std::max(absolute, relative * (reached + work.open.standing()))) {
+    const double error = work.open.error();
+    if (work.open.empty() || (error <= judge_at && error <= std::max(absolute, relative * (reached + work.open.standing())))) {
+      judge_at = 0.9 * error;
       const std::size_t done = judge(sums);
       if (work.open.empty()) {
         // Floats are not enough for the others.
-        for (std::size_t i = 0; i < block.count && !repeating; ++i)
+        for (std::size_t i = 0; i < block.count && in_floats; ++i)
           if (!sums.done[i]) work.again.add(block.points[i]);
-        return leave(sums, repeating);
+        return leave(sums, !in_floats);
       }
       if (2 * done >= block.count) {
         leave(sums, false);
