@@ -78,8 +78,10 @@ class Evaluator {
   // In floats, where a sum may leave out lights that are below the tolerance.
   bool in_floats() const { return fast_ && lambert_; }
   Answer operator()(const Emitter& emitter, const PointRow& point) const;
-  // Many points of one light; `fast` alone knows a shorter way.
-  std::vector<Answer> operator()(const Emitter& emitter, std::span<const PointRow> points) const;
+  // Many points of one light; `fast` alone knows a shorter way, which it prepares once a light.
+  std::optional<eval::LightBatch> batch_of(const Emitter& emitter) const;
+  std::vector<Answer> operator()(const Emitter& emitter, const std::optional<eval::LightBatch>& batch,
+                                 std::span<const PointRow> points) const;
   // Whether the method takes this light.
   Status accepts(const Emitter& emitter, const std::string& name) const;
 
@@ -143,10 +145,15 @@ Status Evaluator::choose_diffuse_rule(const Options& o) {
 Status Evaluator::accepts(const Emitter& emitter, const std::string& name) const {
   const PointRow probe{{0, 0, 1}, {0, 1, 0}, {0, 1, 0}};
   const auto refused = [&](std::string_view method) {
-    return Error{
-        "METHOD_UNSUPPORTED", fmt::format("light '{}': expected a shape that {} takes", name, method), {}, "--lights chooses some", {}};
+    return Error{"METHOD_UNSUPPORTED",
+                 fmt::format("light '{}': expected one that {} takes: its shape, without pattern or range", name, method),
+                 {},
+                 "--lights chooses some",
+                 {}};
   };
-  if (published_ != nullptr && !published_->illuminance(emitter, probe.position, probe.normal)) return refused(published_->name);
+  // None knows patterns or ranges of area lights.
+  if (published_ != nullptr && !(has_closed_form(emitter) && published_->illuminance(emitter, probe.position, probe.normal)))
+    return refused(published_->name);
   if (rule_ != nullptr && !rule_->luminance(emitter, shading_point(probe))) return refused(rule_->name);
   return Done{};
 }
@@ -217,11 +224,18 @@ double facing(const Emitter& emitter, const Rgb& scale, const Vec3d& position) {
   return largest(scale) / std::max(dot(to, to), 1e-280);
 }
 
-std::vector<Answer> Evaluator::operator()(const Emitter& emitter, std::span<const PointRow> points) const {
+std::optional<eval::LightBatch> Evaluator::batch_of(const Emitter& emitter) const {
+  if (!in_floats()) return {};
+  Result<eval::LightBatch> batch = eval::LightBatch::of(emitter);
+  if (!batch) return {};
+  return *std::move(batch);
+}
+
+std::vector<Answer> Evaluator::operator()(const Emitter& emitter, const std::optional<eval::LightBatch>& batch,
+                                          std::span<const PointRow> points) const {
   std::vector<Answer> answers;
   answers.reserve(points.size());
-  const Result<eval::LightBatch> batch = eval::LightBatch::of(emitter);
-  if (!in_floats() || !batch) {
+  if (!batch) {
     for (const PointRow& p : points) answers.push_back((*this)(emitter, p));
     return answers;
   }
@@ -311,7 +325,12 @@ int run_eval(const Common& common, const Options& options) {
     if (const Status ok = evaluator->accepts((*emitters)[i], name(i)); !ok) return session.fail(ok.error());
 
   std::optional<Sum> sum;
-  if (options.sum && evaluator->in_floats()) sum.emplace(*emitters, *evaluator, options.tolerance);
+  std::vector<std::optional<eval::LightBatch>> batches;
+  if (options.sum && evaluator->in_floats()) {
+    sum.emplace(*emitters, *evaluator, options.tolerance);
+  } else {
+    for (const Emitter& emitter : *emitters) batches.push_back(evaluator->batch_of(emitter));
+  }
   session.result = Json::array();
   std::uint64_t points = 0;
   std::string rows = "index,light,r,g,b,bound,method\n";
@@ -330,7 +349,13 @@ int run_eval(const Common& common, const Options& options) {
     append_field(rows, light);
     fmt::format_to(std::back_inserter(rows), ",{},{},{},{},{}\n", a.value.x, a.value.y, a.value.z, a.bound, a.method);
   };
-  const Status read = each_block(options.points, evaluator->wants_view(), [&](std::span<const PointRow> block) -> Status {
+  const auto write_rows = [&]() -> Status {
+    if (!common.json && (std::fwrite(rows.data(), 1, rows.size(), stdout) != rows.size() || std::fflush(stdout) != 0))
+      return Error{"FILE_UNWRITABLE", "the output cannot be written", {}, {}, {}};
+    rows.clear();
+    return Done{};
+  };
+  Status read = each_block(options.points, evaluator->wants_view(), [&](std::span<const PointRow> block) -> Status {
     if (interrupted()) return Error{"CANCELLED", "stopped", {}, {}, {}};
     if (sum) {
       const std::vector<Answer> answers = (*sum)(block);
@@ -338,7 +363,7 @@ int run_eval(const Common& common, const Options& options) {
     } else {
       std::vector<std::vector<Answer>> by_light;
       by_light.reserve(emitters->size());
-      for (const Emitter& emitter : *emitters) by_light.push_back((*evaluator)(emitter, block));
+      for (std::size_t i = 0; i < emitters->size(); ++i) by_light.push_back((*evaluator)((*emitters)[i], batches[i], block));
       for (std::size_t p = 0; p < block.size(); ++p) {
         Answer all{{}, 0, "sum"};
         for (std::size_t i = 0; i < by_light.size(); ++i) {
@@ -351,11 +376,9 @@ int run_eval(const Common& common, const Options& options) {
       }
     }
     points += block.size();
-    if (!common.json && (std::fwrite(rows.data(), 1, rows.size(), stdout) != rows.size() || std::fflush(stdout) != 0))
-      return Error{"FILE_UNWRITABLE", "the output cannot be written", {}, {}, {}};
-    rows.clear();
-    return Done{};
+    return write_rows();
   });
+  if (read) read = write_rows();  // the heading, if there are no points
   session.stats["points"] = points;
   session.stats["evaluations"] = points * emitters->size();
   if (sum) sum->tell(session.stats);
