@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "counted_heap.h"
 #include "eval/light_bound.h"
 #include "eval_protocol.h"
 #include "instruction_sets.h"
@@ -254,6 +255,19 @@ TEST(RigBatch, AStreetEvaluatesFewLightsAPoint) {
   EXPECT_GT(matter, 10);
   EXPECT_LT(static_cast<double>(a.counts.evaluated), 2 * matter * static_cast<double>(points.size()));
   EXPECT_GT(a.counts.skipped_small, a.counts.evaluated);
+}
+
+TEST(RigBatch, AKeptWorkspaceIsNotAllocatedAgain) {
+  Random random(37);
+  const RigBatch rig(street::lamps(10, 10, random));
+  const street::Points town = street::points(10, 10, 20000, random);
+  std::vector<Vec3f> lux(town.size());
+  std::vector<float> bound(town.size());
+  RigBatch::Workspace workspace;
+  const auto call = [&] { EXPECT_TRUE(rig.illuminance(town.batch(), {0.02, 0.02}, lux, bound, {}, workspace).ok()); };
+  // 64 bytes a point, and what the lights take.
+  EXPECT_LT(test::peak_heap_of(call), 80 * town.size());
+  EXPECT_EQ(test::peak_heap_of(call), 0u);
 }
 
 TEST(RigBatch, AnyOrderAndAnyOriginAndAnyScale) {
