@@ -1,5 +1,6 @@
 // The numbers behind the pictures of sdk/docs, as JSON; sdk/docs/pictures/draw draws them.
 #include "diffuse_curves.h"
+#include "light_curves.h"
 #include "peers.h"
 
 #include "etendue/batch.h"
@@ -68,6 +69,18 @@ Json response() {
     for (const double nits : ratios(1e-2, 1e5, 300))
       curves[fmt::format("EV {}", ev)].push_back(
           point(nits, 255 * std::clamp(linear_to_srgb(nits * exposure_of_ev100(ev, *calibration("frostbite"))), 0.0, 1.0)));
+  return curves;
+}
+
+// Figure 75 of Lagarde and de Rousiers: the code of a linear value, and what a power of 2.2 makes of it.
+Json srgb_curves() {
+  Json curves;
+  for (const double linear : ratios(1e-5, 1, 300)) {
+    const double exact = linear_to_srgb(linear), power = std::pow(linear, 1 / 2.2);
+    curves["sRGB"].push_back(point(linear, 255 * exact));
+    curves["power of 1 / 2.2"].push_back(point(linear, 255 * power));
+    curves["difference"].push_back(point(linear, 255 * std::abs(power - exact)));
+  }
   return curves;
 }
 
@@ -166,7 +179,13 @@ int main() {
                     {"temperature_errors", temperature_errors()},
                     {"colour_errors", colour_errors()},
                     {"diffuse_reflectances", diffuse_reflectances(0.8)},
-                    {"diffuse_rule_errors", diffuse_rule_errors()}};
+                    {"diffuse_rule_errors", diffuse_rule_errors()},
+                    {"light_outlines", light_outlines()},
+                    {"sphere_units", sphere_units()},
+                    {"sphere_without_horizon", sphere_without_horizon()},
+                    {"inverse_square_errors", inverse_square_errors()},
+                    {"edge_fit_errors", edge_fit_errors()},
+                    {"srgb_curves", srgb_curves()}};
   fmt::print("{}\n", all.dump());
   return 0;
 }
