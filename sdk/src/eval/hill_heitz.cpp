@@ -1,5 +1,6 @@
 // Hill and Heitz, "Real-Time Area Lighting: a Journey from Research to Production" (2016): edge integrals of a polygon, clipped at the
 // horizon, or not clipped and its vector form factor taken for that of a sphere.
+#include "method_batch.h"
 #include "views.h"
 
 #include <vector>
@@ -68,7 +69,7 @@ double sphere_exact(const RectView& rect, const Vec3d& n) {
 }
 
 // 64 x 64 nodes in the cosine and the form factor, bilinear.
-constexpr std::size_t nodes = 64;
+constexpr std::size_t nodes = ratio_nodes;
 struct Table {
   std::vector<double> values = std::vector<double>(nodes * nodes);
   static double share(std::size_t i) { return static_cast<double>(i) / (nodes - 1); }
@@ -86,10 +87,13 @@ struct Table {
     return (row[0] * (1 - u) + row[1] * u) * (1 - v) + (row[nodes] * (1 - u) + row[nodes + 1] * u) * v;
   }
 };
-double sphere_ratio_table(const RectView& rect, const Vec3d& n) {
+const Table& ratios() {
   static const Table table([](double z, double f) { return f > 0 ? snyder(z, f) / f : std::max(z, 0.0); });
+  return table;
+}
+double sphere_ratio_table(const RectView& rect, const Vec3d& n) {
   const SphereProxy p = proxy(rect, n);
-  return pi * p.factor * table(p.z, p.factor);
+  return pi * p.factor * ratios()(p.z, p.factor);
 }
 double sphere_absolute_table(const RectView& rect, const Vec3d& n) {
   static const Table table(snyder);
@@ -127,5 +131,10 @@ constexpr DiffuseMethod methods[] = {
 }  // namespace
 
 std::span<const DiffuseMethod> hill_heitz_methods() { return methods; }
+
+std::span<const float, ratio_nodes * ratio_nodes> sphere_ratios() {
+  static const std::vector<float> single(ratios().values.begin(), ratios().values.end());
+  return std::span<const float, nodes * nodes>(single);
+}
 
 }  // namespace etendue::eval
