@@ -212,8 +212,15 @@ HWY_INLINE V over_tube(D d, const PlacedTube& light, const Point<V>& point, M& d
     const M thin = hn::Lt(hn::Mul(number(d, 60), r2), near2),
             far = hn::Gt(near2, hn::Mul(hn::IfThenElse(rod, number(d, 4), number(d, 10)), size2));
     const M too_far = hn::Gt(near2, number(d, 1e12));
-    doubtful = hn::And(hn::Gt(highest, hn::Neg(hn::Mul(number(d, 1e-5), radius))),
-                       hn::Or(hn::Or(at_surface, too_far), hn::And(cut_and_seen, hn::Or(far, hn::And(thin, cancels)))));
+    // Close to the axis' line the distance from it is rounded as that of the tube's ends is.
+    const V farther2 = hn::Max(hn::Mul(t.a, t.a), hn::Mul(t.b, t.b));
+    // A cut tube's terms are of the order of its radius over its distance, whatever is left of them.
+    const M little = hn::Lt(hn::Mul(value, t.across), hn::Mul(number(d, 0.02), radius));
+    const M grazing = hn::Lt(hn::Mul(highest, highest), hn::Mul(number(d, 2e-2), farther2));
+    const M end_on = hn::Lt(off2, hn::Mul(hn::IfThenElse(hn::Or(cut, grazing), number(d, 2e-2), number(d, 2e-3)), farther2));
+    doubtful = hn::And(
+        hn::Gt(highest, hn::Neg(hn::Mul(number(d, 1e-5), radius))),
+        hn::Or(hn::Or(hn::Or(at_surface, end_on), too_far), hn::And(cut_and_seen, hn::Or(hn::Or(far, little), hn::And(thin, cancels)))));
   }
   value = hn::IfThenElse(outside, hn::Max(value, zero), light.white.two_sided ? number(d, pi) : zero);
   return hn::IfThenElseZero(hn::Or(lit, hn::Not(outside)), value);
