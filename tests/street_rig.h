@@ -3,6 +3,7 @@
 
 #include "etendue/rig_batch.h"
 #include "eval_protocol.h"
+#include "float_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,26 +47,9 @@ inline std::vector<Emitter> lamps(int columns, int rows, protocol::Random& rando
   return lights;
 }
 
-struct Points {
-  std::vector<float> px, py, pz, nx, ny, nz;
-
-  std::size_t size() const { return px.size(); }
-  PointBatch batch(std::size_t first, std::size_t count) const {
-    const auto part = [&](const std::vector<float>& v) { return std::span(v).subspan(first, count); };
-    return {part(px), part(py), part(pz), part(nx), part(ny), part(nz), {}};
-  }
-  PointBatch batch() const { return batch(0, size()); }
-  Vec3d position(std::size_t i) const { return {px[i], py[i], pz[i]}; }
-  Vec3d normal(std::size_t i) const { return {nx[i], ny[i], nz[i]}; }
-  void add(const Vec3d& p, const Vec3d& n) {
-    px.push_back(static_cast<float>(p.x)), py.push_back(static_cast<float>(p.y)), pz.push_back(static_cast<float>(p.z));
-    nx.push_back(static_cast<float>(n.x)), ny.push_back(static_cast<float>(n.y)), nz.push_back(static_cast<float>(n.z));
-  }
-};
-
 // Anywhere in the town, in random order: four in five on the ground, the others on walls of up to 6 m.
-inline Points points(int columns, int rows, std::size_t count, protocol::Random& random) {
-  Points all;
+inline FloatPoints points(int columns, int rows, std::size_t count, protocol::Random& random) {
+  FloatPoints all;
   for (std::size_t i = 0; i < count; ++i) {
     const double x = random.uniform(-0.5, columns - 0.5) * spacing, z = random.uniform(-0.5, rows - 0.5) * spacing;
     if (random.uniform(0, 1) < 0.8) {
@@ -80,7 +64,7 @@ inline Points points(int columns, int rows, std::size_t count, protocol::Random&
 }
 
 // Street by street: rows of cells of 2 m.
-inline Points in_order(const Points& points) {
+inline FloatPoints in_order(const FloatPoints& points) {
   struct Key {
     int row, column;
     std::size_t index;
@@ -90,7 +74,7 @@ inline Points in_order(const Points& points) {
   for (std::size_t i = 0; i < points.size(); ++i)
     keys.push_back({static_cast<int>(std::floor(points.pz[i] / 2)), static_cast<int>(std::floor(points.px[i] / 2)), i});
   std::sort(keys.begin(), keys.end());
-  Points sorted;
+  FloatPoints sorted;
   for (const Key& k : keys) sorted.add(points.position(k.index), points.normal(k.index));
   return sorted;
 }

@@ -64,7 +64,7 @@ struct Row {
   std::size_t checked = 0;
 };
 
-Row measured(std::string order, const Options& o, const std::vector<Emitter>& lights, const street::Points& points) {
+Row measured(std::string order, const Options& o, const std::vector<Emitter>& lights, const FloatPoints& points) {
   Row row{std::move(order), 0, 0, 0, 0, {}};
   const AllLights all(lights);
   const RigBatch rig(lights);
@@ -104,7 +104,7 @@ struct Matter {
   double mean = 0;
   std::size_t least = 0, most = 0, lights = 0;  // lights: how many of all matter at one of the points
 };
-Matter matter(const Options& o, const std::vector<Emitter>& lights, const street::Points& points) {
+Matter matter(const Options& o, const std::vector<Emitter>& lights, const FloatPoints& points) {
   Matter m;
   m.least = lights.size();
   std::vector<bool> somewhere(lights.size());
@@ -207,7 +207,7 @@ int main(int argc, char** argv) {
   }
   protocol::Random random(3);
   const std::vector<Emitter> lights = street::lamps(o.columns, o.rows, random);
-  const street::Points points = street::points(o.columns, o.rows, o.points, random);
+  const FloatPoints points = street::points(o.columns, o.rows, o.points, random);
   const Matter m = matter(o, lights, points);
   const std::vector<Row> rows{measured("random", o, lights, points), measured("by street", o, lights, street::in_order(points))};
   o.json ? print_json(o, m, rows) : print(o, m, rows);

@@ -11,6 +11,7 @@
 #include "counted_heap.h"
 #include "eval/light_bound.h"
 #include "eval_protocol.h"
+#include "float_points.h"
 #include "instruction_sets.h"
 #include "street_rig.h"
 
@@ -19,20 +20,7 @@ namespace {
 using namespace etendue;
 using namespace etendue::eval;
 using protocol::Random;
-
-struct Points {
-  std::vector<float> px, py, pz, nx, ny, nz;
-  Vec3d origin;
-  void add(const Vec3d& position, const Vec3d& normal) {
-    const Vec3d p = position - origin;
-    px.push_back(static_cast<float>(p.x)), py.push_back(static_cast<float>(p.y)), pz.push_back(static_cast<float>(p.z));
-    nx.push_back(static_cast<float>(normal.x)), ny.push_back(static_cast<float>(normal.y)), nz.push_back(static_cast<float>(normal.z));
-  }
-  PointBatch batch() const { return {px, py, pz, nx, ny, nz, origin}; }
-  std::size_t size() const { return px.size(); }
-  Vec3d position(std::size_t i) const { return origin + Vec3d{px[i], py[i], pz[i]}; }
-  Vec3d normal(std::size_t i) const { return normalised(Vec3d{nx[i], ny[i], nz[i]}); }
-};
+using Points = FloatPoints;
 
 Transform turned(Random& random, const Vec3d& at) {
   const Basis b = basis_around(random.direction());
@@ -235,9 +223,7 @@ TEST(RigBatch, UnseenLightsCostNoEvaluation) {
 TEST(RigBatch, AStreetEvaluatesFewLightsAPoint) {
   Random random(34);
   const RigBatch rig(street::lamps(10, 10, random));
-  Points points;
-  const street::Points town = street::points(10, 10, 100000, random);
-  for (std::size_t i = 0; i < town.size(); ++i) points.add(town.position(i), town.normal(i));
+  const Points points = street::points(10, 10, 100000, random);
   const Tolerance tolerance{0, 0.1};
   const Answer a = answer(rig, points, tolerance);
   Points some;
@@ -260,7 +246,7 @@ TEST(RigBatch, AStreetEvaluatesFewLightsAPoint) {
 TEST(RigBatch, AKeptWorkspaceIsNotAllocatedAgain) {
   Random random(37);
   const RigBatch rig(street::lamps(10, 10, random));
-  const street::Points town = street::points(10, 10, 20000, random);
+  const Points town = street::points(10, 10, 20000, random);
   std::vector<Vec3f> lux(town.size());
   std::vector<float> bound(town.size());
   RigBatch::Workspace workspace;
