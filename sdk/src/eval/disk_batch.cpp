@@ -90,11 +90,12 @@ HWY_INLINE V over_disk(D d, const PlacedDisk& light, const Point<V>& point, M& d
     const V part = hn::MulAdd(number(d, 0.25), rim, hn::Mul(number(d, 0.5), chord));
     value = hn::IfThenElse(cut_and_lit, part, value);
     if constexpr (in_floats<D>) {
-      // The terms of a cut rim are of the order 1, whatever is left of them.
+      // The terms of a cut rim are of the order of the angle that it is seen under, whatever is left of them.
       const V per_d = near_inverse_sqrt(d, d2),
               solid_angle = hn::Mul(hn::Mul(number(d, pi), hn::Mul(r2, height)), hn::Mul(per_d, hn::Mul(per_d, per_d)));
       const V allowed = hn::MulAdd(value, number(d, 7), hn::Mul(solid_angle, number(d, 1.4)));
-      doubtful = hn::Or(doubtful, hn::And(cut_and_lit, hn::Lt(allowed, number(d, 0.25))));
+      doubtful =
+          hn::Or(doubtful, hn::And(cut_and_lit, hn::Lt(allowed, hn::Min(number(d, 0.25), hn::Mul(number(d, 0.5 * light.radius), per_d)))));
     }
   }
   return hn::IfThenElseZero(lit, hn::Max(value, zero));
