@@ -217,7 +217,7 @@ HWY_INLINE V over_tube(D d, const PlacedTube& light, const Point<V>& point, M& d
     // A cut tube's terms are of the order of its radius over its distance, whatever is left of them.
     const M little = hn::Lt(hn::Mul(value, t.across), hn::Mul(number(d, 0.02), radius));
     const M grazing = hn::Lt(hn::Mul(highest, highest), hn::Mul(number(d, 2e-2), farther2));
-    const M end_on = hn::Lt(off2, hn::Mul(hn::IfThenElse(hn::Or(cut, grazing), number(d, 2e-2), number(d, 2e-3)), farther2));
+    const M end_on = hn::Lt(off2, hn::Mul(hn::IfThenElse(hn::Or(cut, grazing), number(d, 2e-2), number(d, 5e-3)), farther2));
     doubtful = hn::And(
         hn::Gt(highest, hn::Neg(hn::Mul(number(d, 1e-5), radius))),
         hn::Or(hn::Or(hn::Or(at_surface, end_on), too_far), hn::And(cut_and_seen, hn::Or(hn::Or(far, little), hn::And(thin, cancels)))));
