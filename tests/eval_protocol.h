@@ -1,33 +1,11 @@
 // Random lights and points for tests of the evaluation: one shading point in a box of 4 m, the light around it, sizes log-uniform.
 #pragma once
 
-#include "etendue/eval.h"
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <random>
 #include <utility>
 
+#include "../sdk/src/eval/light_protocol.h"
+
 namespace etendue::eval::protocol {
-
-enum class Kind { rect, sphere, disk, capsule, flat_tube, open_tube };
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double lo, double hi) { return lo + (hi - lo) * unit_(engine_); }
-  double log_uniform(double lo, double hi) { return lo * std::pow(hi / lo, uniform(0, 1)); }
-  Vec3d direction() {
-    const double z = uniform(-1, 1), r = std::sqrt(std::max(1 - z * z, 0.0)), phi = uniform(0, 2 * pi);
-    return {r * std::cos(phi), r * std::sin(phi), z};
-  }
-  Vec2d square() { return {uniform(0, 1), uniform(0, 1)}; }
-
- private:
-  std::mt19937_64 engine_;
-  std::uniform_real_distribution<double> unit_{0, 1};
-};
 
 // A light of one luminance in all channels, and its illuminance.
 inline Emitter white(EmitterShape shape, double luminance = 1) {
@@ -43,61 +21,6 @@ struct Placement {
   Vec3d position, normal;
   Vec3d towards;  // to the light's centre
 };
-
-inline PolygonEmitter rectangle(const Vec3d& centre, const Vec3d& x, const Vec3d& y, double width, double height) {
-  const Vec3d hx = x * (0.5 * width), hy = y * (0.5 * height);
-  PolygonEmitter p;
-  p.vertices = {centre - hx - hy, centre + hx - hy, centre + hx + hy, centre - hx + hy};
-  p.normal = cross(x, y);
-  p.uv_frame = {centre - hx - hy, hx * 2, hy * 2};
-  p.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return p;
-}
-
-// The lowest value of n.p over the light, p relative to the point: positive if it is wholly above the horizon.
-inline double lowest(const EmitterShape& shape, const Vec3d& position, const Vec3d& n) {
-  if (const auto* s = std::get_if<SphereEmitter>(&shape)) return dot(n, s->centre - position) - s->radius;
-  if (const auto* d = std::get_if<DiskEmitter>(&shape)) {
-    const double across = dot(n, d->normal);
-    return dot(n, d->centre - position) - d->radius * std::sqrt(std::max(1 - across * across, 0.0));
-  }
-  if (const auto* t = std::get_if<TubeEmitter>(&shape)) return std::min(dot(n, t->a - position), dot(n, t->b - position)) - t->radius;
-  double low = 1e300;
-  for (const Vec3d& v : std::get<PolygonEmitter>(shape).vertices) low = std::min(low, dot(n, v - position));
-  return low;
-}
-
-inline EmitterShape random_shape(Kind kind, const Vec3d& position, const Vec3d& towards, Random& random) {
-  if (kind == Kind::sphere) {
-    const double radius = random.log_uniform(0.1, 2);
-    return SphereEmitter{position + towards * (radius * random.uniform(1.05, 6)), radius};
-  }
-  if (kind == Kind::rect) {
-    const double w = random.log_uniform(0.25, 4), h = random.log_uniform(0.25, 4), size = std::max(w, h);
-    const double distance = size * random.uniform(0.5, 3);
-    Vec3d n = random.direction();
-    while (-dot(n, towards) < 0.02 || -dot(n, towards) * distance < 0.02 * size) n = random.direction();
-    const Basis b = basis_around(n);
-    const double roll = random.uniform(0, 2 * pi);
-    const Vec3d x = b.tangent * std::cos(roll) + b.bitangent * std::sin(roll);
-    return rectangle(position + towards * distance, x, cross(n, x), w, h);
-  }
-  if (kind == Kind::disk) {
-    const double radius = random.log_uniform(0.1, 2), distance = radius * random.uniform(0.5, 6);
-    Vec3d n = random.direction();
-    while (-dot(n, towards) < 0.02 || -dot(n, towards) * distance < 0.04 * radius) n = random.direction();
-    return DiskEmitter{position + towards * distance, n, basis_around(n).tangent, radius};
-  }
-  const double l = random.log_uniform(0.25, 4), radius = l * random.log_uniform(0.01, 0.25);
-  const Vec3d centre = position + towards * (random.uniform(0.5, 3) * (l + 2 * radius));
-  const Caps caps = kind == Kind::capsule ? Caps::round : kind == Kind::flat_tube ? Caps::flat : Caps::none;
-  for (;;) {
-    const Vec3d half = random.direction() * (0.5 * l);
-    const Vec3d a = centre - half - position, span = half * 2;
-    const double t = std::clamp(-dot(a, span) / (l * l), 0.0, 1.0);
-    if (length(a + span * t) >= 1.05 * radius) return TubeEmitter{centre - half, centre + half, radius, caps};
-  }
-}
 
 // `above`: the whole light above the horizon; else it spans both sides of it.
 inline Placement place(Kind kind, Random& random, bool above) {

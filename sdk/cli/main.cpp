@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   add_compare(app, common, run);
   add_validate(app, common, run);
   add_eval(app, common, run);
+  add_bench(app, common, run);
   add_ies(app, common, run);
   add_units(app, common, run);
   add_common(app, common);

@@ -14,6 +14,7 @@ void add_info(CLI::App& app, const Common& common, Run& run);
 void add_convert(CLI::App& app, const Common& common, Run& run);
 void add_render(CLI::App& app, const Common& common, Run& run);
 void add_compare(CLI::App& app, const Common& common, Run& run);
+void add_bench(CLI::App& app, const Common& common, Run& run);
 void add_eval(CLI::App& app, const Common& common, Run& run);
 void add_validate(CLI::App& app, const Common& common, Run& run);
 void add_ies(CLI::App& app, const Common& common, Run& run);

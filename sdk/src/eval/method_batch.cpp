@@ -138,7 +138,7 @@ constexpr BatchMethod methods[] = {
      .disk = true},
     {.name = "edges",
      .ours = true,
-     .note = "clipped, edges in the light's frame by a polynomial within 3e-6",
+     .note = "clipped, edges in the light's frame by a polynomial within 8e-8",
      .rule = BatchRule::edges,
      .rect = true},
 };

@@ -1,0 +1,130 @@
+// etendue bench: run time against error of every method for a shape of light.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "diffuse_bench.h"
+#include "etendue/io.h"
+#include "verbs.h"
+
+namespace etendue::cli {
+namespace {
+
+struct Options {
+  DiffuseBench bench;
+  std::string svg;
+};
+
+// What a rectangle costs at least, by the count of its operations: whole, and cut by the horizon.
+constexpr double whole_rect_flop = 273, cut_rect_flop = 371;
+
+void add_figures(Json& row, const std::string& side, const DiffuseFigures& f) {
+  row["ns_" + side] = f.ns;
+  row["error_" + side + "_agg"] = f.agg;
+  row["error_" + side + "_mean_rel"] = f.mean_rel;
+  row["error_" + side + "_p99_rel"] = f.p99;
+  row["error_" + side + "_max_abs"] = f.max_abs;
+  row["exact_" + side] = f.exact;
+  if (!f.ours.empty()) {
+    row["matched_" + side + "_by"] = f.ours;
+    row["matched_" + side + "_ratio"] = f.ratio;
+  }
+}
+Json to_json(const DiffuseTable& table) {
+  Json rows = Json::array();
+  for (const DiffuseRow& r : table.rows) {
+    Json row = {
+        {"shape", table.shape}, {"method", r.method}, {"kind", r.is_ours ? "ours" : "published"}, {"ns", 0.5 * (r.above.ns + r.across.ns)}};
+    add_figures(row, "above", r.above);
+    add_figures(row, "across", r.across);
+    row["note"] = r.note;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string match_of(const DiffuseRow& row, const DiffuseFigures& f) {
+  if (row.is_ours) return f.exact ? "ours, exact" : "ours";
+  const std::string self = f.exact ? "exact itself; " : "";
+  if (f.ours.empty()) return self + "NOT MATCHED: none of ours errs as little";
+  return fmt::format("{}{}{} at {:.2f} x", self, f.ratio <= matched_ratio ? "" : "NOT MATCHED: ", f.ours, f.ratio);
+}
+std::string text_of(const DiffuseTable& table) {
+  std::string out = fmt::format(
+      "{}, {} points above the horizon and as many across it, seed {}; {}, peak {:.0f} GFLOP/s of multiply-adds measured in the same "
+      "turns\n",
+      table.shape, table.samples, table.seed, table.instruction_set, table.peak_gflops);
+  for (const auto& [side, title] : {std::pair{&DiffuseRow::above, "above the horizon"}, {&DiffuseRow::across, "across the horizon"}}) {
+    out += fmt::format("\n{:<28} {:>8} {:>9} {:>9} {:>9} {:>9}  {}\n", title, "ns", "agg", "mean rel", "p99 rel", "max abs",
+                       "who of ours errs no more, at what part of its time");
+    std::vector<std::size_t> order(table.rows.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&, by = side](std::size_t a, std::size_t b) { return (table.rows[a].*by).ns < (table.rows[b].*by).ns; });
+    for (const std::size_t i : order) {
+      const DiffuseRow& row = table.rows[i];
+      const DiffuseFigures& f = row.*side;
+      out += fmt::format("{:<28} {:>8.2f} {:>9.2g} {:>9.2g} {:>9.2g} {:>9.2g}  {}\n", row.method, f.ns, f.agg, f.mean_rel, f.p99, f.max_abs,
+                         match_of(row, f));
+    }
+  }
+  if (table.shape == "rect") {
+    const auto exact = std::find_if(table.rows.begin(), table.rows.end(), [](const DiffuseRow& r) { return r.method == "exact"; });
+    out +=
+        fmt::format("\nexact: {:.2f} times the time of {:.0f} FLOP at that peak above the horizon, {:.2f} times that of {:.0f} across it\n",
+                    exact->above.ns * table.peak_gflops / whole_rect_flop, whole_rect_flop,
+                    exact->across.ns * table.peak_gflops / cut_rect_flop, cut_rect_flop);
+  }
+  return out;
+}
+
+int run_bench(const Common& common, const Options& options) {
+  Session session("bench", common);
+  Result<DiffuseTable> table = Error{};
+  {
+    Bar bar(session);
+    table = run_diffuse_bench(options.bench, [&](double done) { return bar.report("measuring", done); });
+  }
+  if (!table) return session.fail(table.error());
+  session.result = to_json(*table);
+  session.stats = {{"shape", table->shape},
+                   {"points", table->samples},
+                   {"seed", table->seed},
+                   {"instruction_set", table->instruction_set},
+                   {"peak_gflops", table->peak_gflops}};
+  session.print(text_of(*table));
+  if (!options.svg.empty()) {
+    const std::string svg = diffuse_scatter(*table);
+    if (const Status written = write_file(options.svg, std::as_bytes(std::span(svg))); !written) return session.fail(written.error());
+  }
+  return session.finish(exit_done);
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, const Common& common, Run& run) {
+  CLI::App* const verb = app.add_subcommand("bench", "Run time against error of every method for the diffuse light of a shape");
+  auto options = std::make_shared<Options>();
+  verb->add_option("SHAPE", options->bench.shape, "rect, sphere, disk or tube (with round caps)")
+      ->required()
+      ->check(CLI::IsMember({"rect", "sphere", "disk", "tube"}));
+  verb->add_option("--svg", options->svg, "Draw time against error to this file; what is there is replaced");
+  verb->add_option("--samples", options->bench.samples, "Points on each side of the horizon, in batches of 256 a light")
+      ->capture_default_str()
+      ->check(CLI::Range(256, 1 << 22));
+  verb->add_option("--seed", options->bench.seed, "Of lights and points")->capture_default_str();
+  verb->add_option("--rounds", options->bench.rounds, "Turns that the methods take; the median counts")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10001));
+  verb->footer(
+      "\nErrors are those of floats against the exact light in double, for a luminance of 1: agg is the sum of all errors over the\n"
+      "sum of the light. Methods take turns on one thread, so what slows the machine down slows all of them.\n"
+      "\nExamples:\n"
+      "  etendue bench rect\n"
+      "  etendue bench tube --svg tube.svg\n"
+      "  etendue bench disk --samples 65536 --seed 7 --json");
+  verb->callback([&common, &run, options] { run = [&common, options] { return run_bench(common, *options); }; });
+}
+
+}  // namespace etendue::cli

@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+"""`etendue bench`: one row a method with its errors and its time, for every shape; errors that do not depend on the machine; a picture that names each method.
+
+    tests/cli/bench.py [--etendue PATH]
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import tempfile
+import xml.etree.ElementTree
+
+HERE = pathlib.Path(__file__).resolve().parent
+FIGURES = ["%s_%s" % (f, side) if f == "ns" else "error_%s_%s" % (side, f) for side in ("above", "across") for f in ("ns", "agg", "mean_rel", "p99_rel", "max_abs")]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--etendue", default=str(HERE.parents[1] / "build/release/etendue"))
+    etendue = parser.parse_args().etendue
+    published = {"rect": "frostbite-12", "sphere": "karis-sphere", "disk": "frostbite-8", "tube": "frostbite-13"}
+    with tempfile.TemporaryDirectory() as folder:
+        for shape, one in published.items():
+            svg = pathlib.Path(folder) / (shape + ".svg")
+            run = subprocess.run([etendue, "bench", shape, "--samples", "2048", "--rounds", "1", "--json", "-q", "--svg", str(svg)], capture_output=True, text=True, check=True)
+            document = json.loads(run.stdout)
+            assert document["schema"] == "etendue.bench/1" and document["stats"]["peak_gflops"] > 0, document
+            rows = {r["method"]: r for r in document["result"]}
+            assert len(rows) == len(document["result"]) > 4 and {"exact", "nodes-1", one} <= set(rows), sorted(rows)
+            for row in rows.values():
+                assert row["ns"] > 0 and all(row[key] >= 0 for key in FIGURES), row
+                assert row["kind"] in ("ours", "published") and row["shape"] == shape
+            # The closed form errs by roundings, a published approximation by far more than those.
+            for side in ("above", "across"):
+                assert rows["exact"]["error_%s_agg" % side] < 1e-6 and rows["exact"]["error_%s_p99_rel" % side] < 1e-4, rows["exact"]
+            assert rows[one]["error_across_agg"] > 0.05, rows[one]
+            texts = {t.text for t in xml.etree.ElementTree.parse(svg).getroot().iter("{http://www.w3.org/2000/svg}text")}
+            assert {"exact", one} <= texts, texts
+
+
+if __name__ == "__main__":
+    main()
