@@ -56,7 +56,8 @@ void label(SvgSheet& sheet, const Panel& panel, const Mark& mark, std::vector<Bo
   const Vec2d at = panel.at(mark.ns, mark.error);
   const double width = glyph * static_cast<double>(mark.name.size());
   for (int step = 0; step < 60; ++step) {
-    const double down = 11.0 * ((step + 2) / 4) * ((step / 2) % 2 == 0 ? 1 : -1);
+    const int row = (step + 2) / 4 * ((step / 2) % 2 == 0 ? 1 : -1);
+    const double down = 11.0 * row;
     const bool right = step % 2 == 0;
     const double x = right ? at.x + 8 : at.x - 8 - width, y = at.y + 3.5 + down;
     const Box box{x, y - 9, x + width, y + 2};
@@ -64,7 +65,7 @@ void label(SvgSheet& sheet, const Panel& panel, const Mark& mark, std::vector<Bo
         box.bottom > panel.top + panel.height)
       continue;
     if (std::any_of(taken.begin(), taken.end(), [&](const Box& b) { return b.meets(box); })) continue;
-    if (down != 0) sheet.line(at, {right ? x - 1 : x + width + 1, y - 3.5}, "grid");
+    if (down != 0) sheet.line(at, {right ? x - 1 : x + width + 1, y - 3.5}, "axis");
     sheet.text({x, y}, mark.name, mark.is_ours ? "ink halo" : "soft halo", "start", size);
     taken.push_back(box);
     return;
@@ -73,16 +74,16 @@ void label(SvgSheet& sheet, const Panel& panel, const Mark& mark, std::vector<Bo
 
 void draw(SvgSheet& sheet, const Panel& panel, std::string_view title, const std::vector<Mark>& marks) {
   sheet.text({panel.left, panel.top - 10}, title, "ink", "start", 13.5);
-  for (double decade = std::pow(10, std::floor(panel.ns.from)); decade < std::pow(10, panel.ns.to); decade *= 10) {
+  for (int decade = static_cast<int>(std::floor(panel.ns.from)); decade < panel.ns.to; ++decade) {
     for (const double part : {1.0, 2.0, 5.0}) {
-      const double time = part * decade, place = std::log10(time);
+      const double time = part * std::pow(10, decade), place = std::log10(time);
       if (place < panel.ns.from || place > panel.ns.to) continue;
       const double x = panel.at(time, 1).x;
       sheet.line({x, panel.top}, {x, panel.top + panel.height}, "grid");
       sheet.text({x, panel.top + panel.height + 17}, fmt::format("{:g}", time), "soft", "middle", 11);
     }
   }
-  for (double e = panel.error.from; e <= panel.error.to; ++e) {
+  for (int e = static_cast<int>(panel.error.from); e <= static_cast<int>(panel.error.to); ++e) {
     const double y = panel.at(1, std::pow(10, e)).y;
     sheet.line({panel.left, y}, {panel.left + panel.width, y}, "grid");
     sheet.text({panel.left - 8, y + 4}, fmt::format("{:g}", std::pow(10, e)), "soft", "end", 11);
