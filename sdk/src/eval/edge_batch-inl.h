@@ -141,12 +141,14 @@ template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 HWY_INLINE M cancels(D d, const Cancellation<V, M>& c) {
   if constexpr (in_floats<D>) {
     const V inverse_r = near_inverse_sqrt(d, c.r2), square = hn::Mul(c.longer, c.longer);
-    const V bulk = hn::Mul(square, hn::IfThenElse(c.whole, hn::Mul(hn::Mul(c.longer, inverse_r), number(d, 0.08)), number(d, 0.08)));
+    const V of_whole = hn::MulAdd(hn::Mul(c.longer, inverse_r), number(d, 0.4), number(d, 0.02));
+    const V bulk = hn::Mul(square, hn::IfThenElse(c.whole, of_whole, number(d, 0.2)));
     // |n.(a x unit vector along an edge)| is no more than |n_z| r + |z|.
     const V leaning = hn::Abs(c.n_z), across = hn::MulAdd(hn::Abs(c.z), inverse_r, leaning);
     const V shine = hn::Mul(hn::MulAdd(bulk, across, hn::Mul(c.area, leaning)), c.per_r2);
     const V solid_angle = hn::Mul(hn::Mul(hn::Abs(c.z), inverse_r), hn::Mul(c.area, c.per_r2));
-    const V to_end = near_inverse_sqrt(d, hn::Max(hn::Add(c.least, number(d, 1)), number(d, 1e-6)));
+    const V nearness = hn::Max(hn::Add(c.least, number(d, 1)), number(d, 1e-6));
+    const V to_end = hn::IfThenElseZero(hn::Lt(nearness, number(d, 0.25)), near_inverse_sqrt(d, nearness));
     const V error =
         hn::MulAdd(hn::Max(hn::Mul(hn::Mul(c.closest, c.r2), inverse_r), to_end), number(d, 0.1), hn::Mul(shine, number(d, 0.75)));
     const V allowed = hn::MulAdd(hn::Abs(c.value), number(d, 7), hn::Mul(solid_angle, number(d, 1.4)));
