@@ -135,8 +135,8 @@ struct Cancellation {
   V value, n_z, z, r2, per_r2, area, longer, closest, least;
   M whole;
 };
-// Where floats are not enough: more than .7 of LightBatch's bound may be lost. The factors, in units of 1e-6, are those that
-// tests/stress finds enough with its search for the worst case.
+// Where floats are not enough. An estimate, in units of 1e-6, aimed at .7 of LightBatch's bound; its factors are no proof but were set by
+// the search of tests/stress, which at random finds nothing over the bound and uphill now and then a case a little over it.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 HWY_INLINE M cancels(D d, const Cancellation<V, M>& c) {
   if constexpr (in_floats<D>) {
