@@ -149,7 +149,9 @@ namespace {
 // After turning s by the phase the numerator is p + q cos s + r sin s, and
 //   I = q s / rho + (p - q m / rho) J - r ln(m + rho cos s) / rho,   J = 2 / w atan(sqrt((m - rho) / (m + rho)) tan(s / 2)),
 // w = sqrt(m^2 - rho^2). m - rho and m + rho are squared distances to the nearest and the farthest point of the rim and are formed as
-// such. Where rho is small against m the terms cancel; there the integrand is so smooth that 24 Gauss points are exact to rounding.
+// such. Where rho is small against m the terms cancel; there 24 Gauss points are exact to rounding: the integrand's poles are at the height
+// arcosh(m / rho) over the arc, seen from the middle of an arc of the half length H at z = height / H or more, and the rule's error falls
+// like (z + sqrt(z^2 + 1))^-48, which is 1e-16 at z = .85.
 Vec3d rim_integral(const Arc& arc) {
   const double radius = length(arc.u);
   const Vec3d axis = cross(arc.u, arc.v) / (radius * radius);
@@ -158,9 +160,10 @@ Vec3d rim_integral(const Arc& arc) {
   const double near2 = (in_plane - radius) * (in_plane - radius) + h * h, far2 = (in_plane + radius) * (in_plane + radius) + h * h;
   const double m = in_plane * in_plane + radius * radius + h * h, rho = 2 * radius * in_plane;
   if (!(near2 > 0)) return {};
-  if (rho < 0.05 * m) {
+  const double half = 0.5 * (arc.end - arc.begin);
+  if (std::acosh(std::max(m / rho, 1.0)) > 0.85 * half) {
     Vec3d sum;
-    const double half = 0.5 * (arc.end - arc.begin), middle = 0.5 * (arc.end + arc.begin);
+    const double middle = 0.5 * (arc.end + arc.begin);
     for (const GaussNode& node : gauss24()) {
       const double s = middle + half * node.x, cs = std::cos(s), sn = std::sin(s);
       const Vec3d b = arc.centre + arc.u * cs + arc.v * sn;

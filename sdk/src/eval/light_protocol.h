@@ -10,7 +10,7 @@
 
 namespace etendue::eval::protocol {
 
-enum class Kind { rect, sphere, disk, capsule, flat_tube, open_tube };
+enum class Kind { rect, star, sphere, disk, capsule, flat_tube, open_tube, line };  // star: a polygon, most of them concave
 
 class Random {
  public:
@@ -38,6 +38,21 @@ inline PolygonEmitter rectangle(const Vec3d& centre, const Vec3d& x, const Vec3d
   return p;
 }
 
+// A corner at each end of an ellipse's diameters, one nearer to the middle between any two: spikes about a convex middle.
+inline PolygonEmitter star(const Vec3d& centre, const Vec3d& x, const Vec3d& y, double width, double height, std::uint32_t spikes,
+                           double nearer) {
+  PolygonEmitter p = rectangle(centre, x, y, width, height);
+  p.vertices.clear(), p.triangles.clear();
+  const std::uint32_t corners = 2 * spikes;
+  for (std::uint32_t i = 0; i < corners; ++i) {
+    const double phi = 2 * pi * i / corners, r = 0.5 * (i % 2 == 0 ? 1 : nearer);
+    p.vertices.push_back(centre + x * (width * r * std::cos(phi)) + y * (height * r * std::sin(phi)));
+    if (i % 2 == 0) p.triangles.push_back({(i + corners - 1) % corners, i, i + 1});
+    if (i % 2 == 1 && i > 1 && i + 2 < corners) p.triangles.push_back({1, i, i + 2});
+  }
+  return p;
+}
+
 // The lowest value of n.p over the light, p relative to the point: positive if it is wholly above the horizon.
 inline double lowest(const EmitterShape& shape, const Vec3d& position, const Vec3d& n) {
   if (const auto* s = std::get_if<SphereEmitter>(&shape)) return dot(n, s->centre - position) - s->radius;
@@ -46,6 +61,7 @@ inline double lowest(const EmitterShape& shape, const Vec3d& position, const Vec
     return dot(n, d->centre - position) - d->radius * std::sqrt(std::max(1 - across * across, 0.0));
   }
   if (const auto* t = std::get_if<TubeEmitter>(&shape)) return std::min(dot(n, t->a - position), dot(n, t->b - position)) - t->radius;
+  if (const auto* l = std::get_if<LineEmitter>(&shape)) return std::min(dot(n, l->a - position), dot(n, l->b - position));
   double low = 1e300;
   for (const Vec3d& v : std::get<PolygonEmitter>(shape).vertices) low = std::min(low, dot(n, v - position));
   return low;
@@ -56,7 +72,7 @@ inline EmitterShape random_shape(Kind kind, const Vec3d& position, const Vec3d& 
     const double radius = random.log_uniform(0.1, 2);
     return SphereEmitter{position + towards * (radius * random.uniform(1.05, 6)), radius};
   }
-  if (kind == Kind::rect) {
+  if (kind == Kind::rect || kind == Kind::star) {
     const double w = random.log_uniform(0.25, 4), h = random.log_uniform(0.25, 4), size = std::max(w, h);
     const double distance = size * random.uniform(0.5, 3);
     Vec3d n = random.direction();
@@ -64,7 +80,9 @@ inline EmitterShape random_shape(Kind kind, const Vec3d& position, const Vec3d& 
     const Basis b = basis_around(n);
     const double roll = random.uniform(0, 2 * pi);
     const Vec3d x = b.tangent * std::cos(roll) + b.bitangent * std::sin(roll);
-    return rectangle(position + towards * distance, x, cross(n, x), w, h);
+    const Vec3d centre = position + towards * distance, y = cross(n, x);
+    if (kind == Kind::rect) return rectangle(centre, x, y, w, h);
+    return star(centre, x, y, w, h, 3 + static_cast<std::uint32_t>(random.uniform(0, 4)), random.uniform(0.3, 1));
   }
   if (kind == Kind::disk) {
     const double radius = random.log_uniform(0.1, 2), distance = radius * random.uniform(0.5, 6);
@@ -79,7 +97,9 @@ inline EmitterShape random_shape(Kind kind, const Vec3d& position, const Vec3d& 
     const Vec3d half = random.direction() * (0.5 * l);
     const Vec3d a = centre - half - position, span = half * 2;
     const double t = std::clamp(-dot(a, span) / (l * l), 0.0, 1.0);
-    if (length(a + span * t) >= 1.05 * radius) return TubeEmitter{centre - half, centre + half, radius, caps};
+    if (!(length(a + span * t) >= 1.05 * radius)) continue;
+    if (kind == Kind::line) return LineEmitter{centre - half, centre + half, {1, 1, 1}};
+    return TubeEmitter{centre - half, centre + half, radius, caps};
   }
 }
 
