@@ -10,7 +10,7 @@
 
 namespace etendue::eval::protocol {
 
-enum class Kind { rect, star, sphere, disk, capsule, flat_tube, open_tube, line };  // star: a polygon, most of them concave
+enum class Kind { rect, sphere, disk, capsule, flat_tube, open_tube, star, line };  // star: a polygon, most of them concave
 
 class Random {
  public:
