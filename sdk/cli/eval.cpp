@@ -31,6 +31,7 @@ struct Options {
   std::string asset, points, brdf = "lambert", base_colour = "0.5,0.5,0.5", method = "exact", masking = "correlated", lights, mute;
   ImportOptions import;
   double alpha = -1, roughness = -1, f0 = 0.04, f90 = 1, tolerance = 1e-4;
+  std::optional<std::uint64_t> samples, seed;
   bool sum = false;
 };
 
@@ -90,11 +91,13 @@ class Evaluator {
   eval::ShadingPoint shading_point(const PointRow& point) const;
   Answer by_reference(const Emitter& emitter, const PointRow& point) const;
   Answer by_rule(const Emitter& emitter, const PointRow& point) const;
+  Answer by_samples(const Emitter& emitter, const PointRow& point) const;
 
   bool lambert_ = true, fast_ = false;
   const eval::DiffuseMethod* published_ = nullptr;  // of lambert
   const eval::DiffuseRule* rule_ = nullptr;         // of other diffuse BRDFs
-  bool closed_ = true;                              // closed forms where there are any
+  std::optional<eval::Sampling> sampling_;
+  bool closed_ = true;  // closed forms where there are any
   eval::Brdf brdf_;
   double tolerance_ = 1e-4;
 };
@@ -110,6 +113,14 @@ Result<Evaluator> Evaluator::of(const Options& o) {
   e.brdf_ = *brdf;
   e.tolerance_ = o.tolerance;
   e.lambert_ = o.brdf == "lambert";
+  if (o.method == "monte-carlo") {
+    e.sampling_.emplace();
+    e.sampling_->samples = o.samples.value_or(e.sampling_->samples);
+    e.sampling_->seed = o.seed.value_or(e.sampling_->seed);
+    return e;
+  }
+  if (o.samples || o.seed)
+    return usage(fmt::format("--{}: expected --method monte-carlo with it, found {}", o.samples ? "samples" : "seed", o.method));
   if (o.method == "exact" || o.method == "reference") {
     e.closed_ = o.method == "exact";
     return e;
@@ -126,12 +137,13 @@ Result<Evaluator> Evaluator::of(const Options& o) {
   if (e.published_ != nullptr) return e;
   std::string names;
   for (const eval::DiffuseMethod& m : eval::diffuse_methods()) names += fmt::format("{}{}", names.empty() ? "" : ", ", m.name);
-  return usage(fmt::format("--method: expected exact, fast, reference or a published one, found '{}'", o.method), "published: " + names);
+  return usage(fmt::format("--method: expected exact, fast, reference, monte-carlo or a published one, found '{}'", o.method),
+               "published: " + names);
 }
 
 Status Evaluator::choose_diffuse_rule(const Options& o) {
   if (!eval::is_diffuse(brdf_))
-    return usage(fmt::format("--method {}: expected exact or reference with --brdf {}", o.method, o.brdf),
+    return usage(fmt::format("--method {}: expected exact, reference or monte-carlo with --brdf {}", o.method, o.brdf),
                  "others are for diffuse BRDFs alone");
   fast_ = o.method == "fast";
   if (fast_) return Done{};
@@ -139,7 +151,7 @@ Status Evaluator::choose_diffuse_rule(const Options& o) {
   if (rule_ != nullptr) return Done{};
   std::string names;
   for (const eval::DiffuseRule& r : eval::diffuse_rules()) names += fmt::format(", {}", r.name);
-  return usage(fmt::format("--method: expected exact, fast, reference{} with --brdf {}, found '{}'", names, o.brdf, o.method));
+  return usage(fmt::format("--method: expected exact, fast, reference, monte-carlo{} with --brdf {}, found '{}'", names, o.brdf, o.method));
 }
 
 Status Evaluator::accepts(const Emitter& emitter, const std::string& name) const {
@@ -182,7 +194,14 @@ Answer Evaluator::by_rule(const Emitter& emitter, const PointRow& p) const {
   return {value, largest(value - exact.value) + exact.bound, rule_->name};
 }
 
+Answer Evaluator::by_samples(const Emitter& emitter, const PointRow& p) const {
+  const double scale = lambert_ ? pi : 1;
+  const eval::SampledEstimate estimate = eval::monte_carlo(emitter, shading_point(p), *sampling_);
+  return {estimate.value * scale, largest(estimate.error()) * scale, "monte-carlo"};
+}
+
 Answer Evaluator::operator()(const Emitter& emitter, const PointRow& p) const {
+  if (sampling_) return by_samples(emitter, p);
   if (published_ != nullptr) {
     // What a published approximation is off by is measured here, against the closed form.
     const std::optional<double> sr = published_->illuminance(emitter, p.position, p.normal);
@@ -406,8 +425,11 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--base-colour", options->base_colour, "r,g,b, linear")->capture_default_str();
   verb->add_option("--method", options->method,
                    "exact, fast (floats; of other diffuse BRDFs a few dozen evaluations, whose bound is an estimate that 99 of 100 keep), "
-                   "reference, or a published method's name (diffuse)")
+                   "reference, monte-carlo (samples of the light, with a statistical bound), or a published method's name (diffuse)")
       ->capture_default_str();
+  verb->add_option("--samples", options->samples, "Of monte-carlo: samples of each light at each point (default 65536)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32));
+  verb->add_option("--seed", options->seed, "Of monte-carlo: the same answers for the same seed (default 1)");
   verb->add_option(
           "--tolerance", options->tolerance,
           "Where nothing is exact: error at most this part of the value. With --sum, of lambert: lights that are below it are left "
@@ -425,6 +447,7 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
       "  etendue eval street.rig.json --points road.csv --method fast --sum --tolerance 1e-2 --stats\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf ggx --alpha 0.1 --tolerance 1e-3\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf oren-nayar --roughness 0.8 --method fast\n"
+      "  etendue eval studio.rig.json --points floor.csv --brdf standard --method monte-carlo --samples 1000000 --seed 7\n"
       "  etendue eval studio.rig.json --points floor.csv --lights key --method frostbite-12");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_eval(common, *options); }; });
 }

@@ -190,6 +190,26 @@ struct Estimate {
 // Environment maps are integrated by importance sampling and carry the statistical error (3 standard deviations).
 Estimate reference(const Emitter& emitter, const ShadingPoint& point, const Tolerance& tolerance);
 
+// The same answer by sampling the light: points uniform over its surface, as the reference mode of Lagarde and de Rousiers (2014), appendix
+// A, draws them for spheres, disks, rectangles, cylinders and capsules (polygons and meshes triangle by triangle, lines along their length,
+// suns over their solid angle, environments from the BRDF). It shares no outline, horizon or quadrature with `reference`.
+struct Sampling {
+  std::uint64_t samples = 1u << 16;  // made a multiple of 32
+  std::uint64_t seed = 1;
+};
+struct SampledEstimate {
+  Rgb value;           // luminance towards the view, cd/m2
+  Rgb standard_error;  // of the value, from 32 independent parts of the samples: a t-distribution of 31 degrees of freedom, if none is rare
+  Rgb heaviest;        // what the one sample that weighs most adds to the value; at least what one at the mirror direction would
+  std::uint64_t samples = 0;
+
+  // Three standard errors, which 99.5 of 100 values keep, and three times the heaviest sample: what n samples have all missed by chance (1
+  // in 20) happens to less than 3 in n of all.
+  Rgb error() const;
+};
+// Of one seed always the same; points at other places are independent. Lights without extent are exact and take no samples.
+SampledEstimate monte_carlo(const Emitter& emitter, const ShadingPoint& point, const Sampling& sampling);
+
 // Cosine integral of the light's luminance (lux) in closed form: every light without pattern, window on an extended light or environment
 // map; `reference` with a white Lambert surface for those. Not below the horizon of `normal`.
 // The inside of a sphere, tube or disk's back is dark unless the light is two-sided. From within the plane of a flat light it is not seen.

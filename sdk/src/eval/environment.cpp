@@ -2,6 +2,7 @@
 
 #include "etendue/colour.h"
 #include "etendue/units.h"
+#include "shifted_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,24 +115,8 @@ std::shared_ptr<const EnvironmentMap> make_environment(std::uint32_t width, std:
 Rgb lookup(const EnvironmentMap& map, const Vec3d& local_direction) { return map.lookup(local_direction); }
 double mean_luminance(const EnvironmentMap& map) { return map.mean_luminance(); }
 
-namespace {
-
-// SplitMix64 (Steele et al. 2014): shifts of the point sets below.
-double uniform(std::uint64_t& state) {
-  state += 0x9e3779b97f4a7c15u;
-  std::uint64_t z = state;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-double fraction(double x) { return x - std::floor(x); }
-
-}  // namespace
-
-// Both techniques take n points each, weighted by the balance heuristic (Veach 1997): sum of f / (p_map + p_brdf) / n. The points are a
-// Kronecker sequence (multiples of 1 / g and 1 / g^2, g^3 = g + 1, g = 1.3247...), shifted at random 16 times: each shift is an unbiased
-// estimate, and their scatter gives the error of the mean. n doubles until three standard deviations are within the tolerance.
+// Both techniques take n points each, weighted by the balance heuristic (Veach 1997): sum of f / (p_map + p_brdf) / n. The points are
+// shifted at random 16 times. n doubles until three standard deviations are within the tolerance.
 Estimate environment_reference(const Emitter& emitter, const EnvironmentEmitter& environment, const ShadingPoint& point,
                                const Tolerance& tolerance) {
   constexpr int shifts = 16;
@@ -150,17 +135,14 @@ Estimate environment_reference(const Emitter& emitter, const EnvironmentEmitter&
     const double pdf = map.pdf(in_map) + pdf_brdf(point.brdf, view, light);
     return pdf > 0 ? brdf_cos(point.brdf, view, light) * map.lookup(in_map) / pdf : Rgb{};
   };
-  std::array<Vec2d, shifts> shift;
-  std::uint64_t state = 1;
-  for (Vec2d& s : shift) s = {uniform(state), uniform(state)};
+  const ShiftedPoints points(shifts, 1);
   std::array<Rgb, shifts> sums{};
   Estimate estimate;
   std::uint64_t done = 0;
   for (std::uint64_t n = 64; n <= most; n *= 2) {
     for (std::size_t k = 0; k < shifts; ++k) {
       for (std::uint64_t i = done; i < n; ++i) {
-        const auto x = static_cast<double>(i);
-        const Vec2d u{fraction(shift[k].x + x * 0.7548776662466927), fraction(shift[k].y + x * 0.5698402909980532)};
+        const Vec2d u = points(k, i);
         const Vec3d in_map = map.sample(u);
         const Vec3d world = to_world.vector(in_map);
         sums[k] += weighted(in_map, world, local(world));
@@ -173,14 +155,13 @@ Estimate environment_reference(const Emitter& emitter, const EnvironmentEmitter&
     }
     done = n;
     estimate.evaluations = 2 * n * shifts;
-    const double scale = 1 / static_cast<double>(n);
+    std::array<Rgb, shifts> means;
+    for (std::size_t k = 0; k < shifts; ++k) means[k] = sums[k] / static_cast<double>(n);
+    const ScatteredMean mean = mean_of(means);
+    estimate.value = mean.value * emitter.radiance;
     bool enough = true;
     for (int c = 0; c < 3; ++c) {
-      double mean = 0, square = 0;
-      for (const Rgb& s : sums) mean += s[c] * scale / shifts;
-      for (const Rgb& s : sums) square += (s[c] * scale - mean) * (s[c] * scale - mean);
-      estimate.value[c] = mean * emitter.radiance[c];
-      estimate.error[c] = 3 * std::sqrt(square / (shifts * (shifts - 1.0))) * std::abs(emitter.radiance[c]);
+      estimate.error[c] = 3 * mean.deviation[c] * std::abs(emitter.radiance[c]);
       enough = enough && estimate.error[c] <= std::max(tolerance.relative * std::abs(estimate.value[c]), tolerance.absolute);
     }
     if (enough) break;

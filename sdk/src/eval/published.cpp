@@ -54,7 +54,8 @@ std::optional<double> DiffuseMethod::illuminance(const Emitter& emitter, const V
 std::span<const DiffuseMethod> diffuse_methods() {
   static const std::vector<DiffuseMethod> all = [] {
     std::vector<DiffuseMethod> methods;
-    for (const auto part : {frostbite_methods(), drobot_methods(), hill_heitz_methods(), karis_methods(), eden_methods()})
+    for (const auto part :
+         {frostbite_methods(), frostbite_reference_methods(), drobot_methods(), hill_heitz_methods(), karis_methods(), eden_methods()})
       methods.insert(methods.end(), part.begin(), part.end());
     return methods;
   }();

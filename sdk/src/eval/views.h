@@ -66,6 +66,7 @@ struct ClippedQuad {
 ClippedQuad clipped(const std::array<Vec3d, 4>& quad, const Vec3d& n);
 
 std::span<const DiffuseMethod> frostbite_methods();
+std::span<const DiffuseMethod> frostbite_reference_methods();
 std::span<const DiffuseMethod> drobot_methods();
 std::span<const DiffuseMethod> hill_heitz_methods();
 std::span<const DiffuseMethod> karis_methods();
