@@ -19,8 +19,9 @@ struct Options {
 // What a rectangle costs at least, by the count of its operations: whole, and cut by the horizon.
 constexpr double whole_rect_flop = 273, cut_rect_flop = 371;
 
-void add_figures(Json& row, const std::string& side, const DiffuseFigures& f) {
+void add_figures(Json& row, const std::string& side, const DiffuseFigures& f, const std::vector<InstructionSet>& sets) {
   row["ns_" + side] = f.ns;
+  for (std::size_t k = 0; k < sets.size(); ++k) row["ns_by_set"][sets[k].name][side] = f.ns_on[k];
   row["error_" + side + "_agg"] = f.agg;
   row["error_" + side + "_mean_rel"] = f.mean_rel;
   row["error_" + side + "_p99_rel"] = f.p99;
@@ -36,8 +37,8 @@ Json to_json(const DiffuseTable& table) {
   for (const DiffuseRow& r : table.rows) {
     Json row = {
         {"shape", table.shape}, {"method", r.method}, {"kind", r.is_ours ? "ours" : "published"}, {"ns", 0.5 * (r.above.ns + r.across.ns)}};
-    add_figures(row, "above", r.above);
-    add_figures(row, "across", r.across);
+    add_figures(row, "above", r.above, table.instruction_sets);
+    add_figures(row, "across", r.across, table.instruction_sets);
     row["note"] = r.note;
     rows.push_back(row);
   }
@@ -51,12 +52,18 @@ std::string match_of(const DiffuseRow& row, const DiffuseFigures& f) {
   return fmt::format("{}{}{} at {:.2f} x", self, f.ratio <= matched_ratio ? "" : "NOT MATCHED: ", f.ours, f.ratio);
 }
 std::string text_of(const DiffuseTable& table) {
+  const std::vector<InstructionSet>& sets = table.instruction_sets;
   std::string out = fmt::format(
-      "{}, {} points above the horizon and as many across it, seed {}; {}, peak {:.0f} GFLOP/s of multiply-adds measured in the same "
-      "turns\n",
-      table.shape, table.samples, table.seed, table.instruction_set, table.peak_gflops);
-  for (const auto& [side, title] : {std::pair{&DiffuseRow::above, "above the horizon"}, {&DiffuseRow::across, "across the horizon"}}) {
-    out += fmt::format("\n{:<28} {:>8} {:>9} {:>9} {:>9} {:>9}  {}\n", title, "ns", "agg", "mean rel", "p99 rel", "max abs",
+      "{}, {} points above the horizon and as many across it, seed {}; peak of multiply-adds, measured in the same turns: ", table.shape,
+      table.samples, table.seed);
+  for (const InstructionSet& set : sets)
+    out += fmt::format("{}{} {:.0f} GFLOP/s", &set == &sets.front() ? "" : ", ", set.name, set.peak_gflops);
+  out += "\n";
+  for (const auto& [side, title] : {std::pair{&DiffuseRow::above, "above the horizon"},
+                                    {&DiffuseRow::across, table.shape == "point" ? "risen or set" : "across the horizon"}}) {
+    out += fmt::format("\n{:<28}", title);
+    for (const InstructionSet& set : sets) out += fmt::format(" {:>10}", set.name + " ns");
+    out += fmt::format(" {:>9} {:>9} {:>9} {:>9}  {}\n", "agg", "mean rel", "p99 rel", "max abs",
                        "who of ours errs no more, at what part of its time");
     std::vector<std::size_t> order(table.rows.size());
     std::iota(order.begin(), order.end(), 0);
@@ -65,16 +72,19 @@ std::string text_of(const DiffuseTable& table) {
     for (const std::size_t i : order) {
       const DiffuseRow& row = table.rows[i];
       const DiffuseFigures& f = row.*side;
-      out += fmt::format("{:<28} {:>8.2f} {:>9.2g} {:>9.2g} {:>9.2g} {:>9.2g}  {}\n", row.method, f.ns, f.agg, f.mean_rel, f.p99, f.max_abs,
-                         match_of(row, f));
+      out += fmt::format("{:<28}", row.method);
+      for (const double ns : f.ns_on) out += fmt::format(" {:>10.2f}", ns);
+      out += fmt::format(" {:>9.2g} {:>9.2g} {:>9.2g} {:>9.2g}  {}\n", f.agg, f.mean_rel, f.p99, f.max_abs, match_of(row, f));
     }
   }
   if (table.shape == "rect") {
     const auto exact = std::find_if(table.rows.begin(), table.rows.end(), [](const DiffuseRow& r) { return r.method == "exact"; });
-    out +=
-        fmt::format("\nexact: {:.2f} times the time of {:.0f} FLOP at that peak above the horizon, {:.2f} times that of {:.0f} across it\n",
-                    exact->above.ns * table.peak_gflops / whole_rect_flop, whole_rect_flop,
-                    exact->across.ns * table.peak_gflops / cut_rect_flop, cut_rect_flop);
+    out += "\n";
+    for (std::size_t k = 0; k < sets.size(); ++k)
+      out += fmt::format(
+          "exact on {}: {:.2f} times the time of {:.0f} FLOP at its peak above the horizon, {:.2f} times that of {:.0f} across it\n",
+          sets[k].name, exact->above.ns_on[k] * sets[k].peak_gflops / whole_rect_flop, whole_rect_flop,
+          exact->across.ns_on[k] * sets[k].peak_gflops / cut_rect_flop, cut_rect_flop);
   }
   return out;
 }
@@ -91,8 +101,9 @@ int run_bench(const Common& common, const Options& options) {
   session.stats = {{"shape", table->shape},
                    {"points", table->samples},
                    {"seed", table->seed},
-                   {"instruction_set", table->instruction_set},
-                   {"peak_gflops", table->peak_gflops}};
+                   {"instruction_set", table->instruction_sets.front().name},
+                   {"peak_gflops", table->instruction_sets.front().peak_gflops}};
+  for (const InstructionSet& set : table->instruction_sets) session.stats["peak_gflops_by_set"][set.name] = set.peak_gflops;
   session.print(text_of(*table));
   if (!options.svg.empty()) {
     const std::string svg = diffuse_scatter(*table);
@@ -106,9 +117,9 @@ int run_bench(const Common& common, const Options& options) {
 void add_bench(CLI::App& app, const Common& common, Run& run) {
   CLI::App* const verb = app.add_subcommand("bench", "Run time against error of every method for the diffuse light of a shape");
   auto options = std::make_shared<Options>();
-  verb->add_option("SHAPE", options->bench.shape, "rect, sphere, disk or tube (with round caps)")
+  verb->add_option("SHAPE", options->bench.shape, "rect, sphere, disk, tube (with round caps), line or point")
       ->required()
-      ->check(CLI::IsMember({"rect", "sphere", "disk", "tube"}));
+      ->check(CLI::IsMember(std::vector<std::string>(bench_shapes.begin(), bench_shapes.end())));
   verb->add_option("--svg", options->svg, "Draw time against error to this file; what is there is replaced");
   verb->add_option("--samples", options->bench.samples, "Points on each side of the horizon, in batches of 256 a light")
       ->capture_default_str()
@@ -119,10 +130,14 @@ void add_bench(CLI::App& app, const Common& common, Run& run) {
       ->check(CLI::Range(1, 10001));
   verb->footer(
       "\nErrors are those of floats against the exact light in double, for a luminance of 1: agg is the sum of all errors over the\n"
-      "sum of the light. Methods take turns on one thread, so what slows the machine down slows all of them.\n"
+      "sum of the light. Methods take turns on one thread, so what slows the machine down slows all of them. There is a column of times "
+      "(ns\n"
+      "a point) for the machine's best instruction set, by which methods are compared, and one each for AVX2 and SSE4. Of a line and a\n"
+      "point light there is the closed form alone.\n"
       "\nExamples:\n"
       "  etendue bench rect\n"
       "  etendue bench tube --svg tube.svg\n"
+      "  etendue bench line\n"
       "  etendue bench disk --samples 65536 --seed 7 --json");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_bench(common, *options); }; });
 }

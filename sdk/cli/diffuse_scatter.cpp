@@ -122,12 +122,14 @@ std::string diffuse_scatter(const DiffuseTable& table) {
   }
   const Range ns{std::log10(0.8 * fastest), std::log10(1.3 * slowest)}, error = decades(least, most);
   SvgSheet sheet(1180, 620);
-  sheet.heading(fmt::format("Diffuse light of a {}: time against error", table.shape == "rect" ? "rectangle" : table.shape),
+  sheet.heading(fmt::format("Diffuse light of a {}: time against error", table.shape == "rect"    ? "rectangle"
+                                                                         : table.shape == "point" ? "point light"
+                                                                                                  : table.shape),
                 fmt::format("{} points each, one thread, {}; error: the sum of all errors over the sum of the light", table.samples,
-                            table.instruction_set));
+                            table.instruction_sets.front().name));
   constexpr double top = 110, width = 470, height = 430;
   draw(sheet, {80, top, width, height, ns, error}, "Above the horizon", above);
-  draw(sheet, {660, top, width, height, ns, error}, "Across the horizon", across);
+  draw(sheet, {660, top, width, height, ns, error}, table.shape == "point" ? "Risen or set" : "Across the horizon", across);
   sheet.text({80 + width / 2, top + height + 40}, "time a point, ns", "soft", "middle", 12);
   sheet.text({660 + width / 2, top + height + 40}, "time a point, ns", "soft", "middle", 12);
   sheet.circle({86, 600}, 4, "a fa");

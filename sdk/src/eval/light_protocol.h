@@ -10,7 +10,7 @@
 
 namespace etendue::eval::protocol {
 
-enum class Kind { rect, sphere, disk, capsule, flat_tube, open_tube, star, line };  // star: a polygon, most of them concave
+enum class Kind { rect, sphere, disk, capsule, flat_tube, open_tube, star, line, point };  // star: a polygon, most of them concave
 
 class Random {
  public:
@@ -61,10 +61,17 @@ inline double lowest(const EmitterShape& shape, const Vec3d& position, const Vec
     return dot(n, d->centre - position) - d->radius * std::sqrt(std::max(1 - across * across, 0.0));
   }
   if (const auto* t = std::get_if<TubeEmitter>(&shape)) return std::min(dot(n, t->a - position), dot(n, t->b - position)) - t->radius;
+  if (const auto* p = std::get_if<PunctualEmitter>(&shape)) return dot(n, p->position - position);
   if (const auto* l = std::get_if<LineEmitter>(&shape)) return std::min(dot(n, l->a - position), dot(n, l->b - position));
   double low = 1e300;
   for (const Vec3d& v : std::get<PolygonEmitter>(shape).vertices) low = std::min(low, dot(n, v - position));
   return low;
+}
+
+// Of a point light: as far as the centre of a sphere may be.
+inline double point_distance(Random& random) {
+  const double radius = random.log_uniform(0.1, 2);
+  return radius * random.uniform(1.05, 6);
 }
 
 inline EmitterShape random_shape(Kind kind, const Vec3d& position, const Vec3d& towards, Random& random) {
@@ -72,6 +79,7 @@ inline EmitterShape random_shape(Kind kind, const Vec3d& position, const Vec3d& 
     const double radius = random.log_uniform(0.1, 2);
     return SphereEmitter{position + towards * (radius * random.uniform(1.05, 6)), radius};
   }
+  if (kind == Kind::point) return PunctualEmitter{position + towards * point_distance(random), {}, {1, 1, 1}, PointShape{}};
   if (kind == Kind::rect || kind == Kind::star) {
     const double w = random.log_uniform(0.25, 4), h = random.log_uniform(0.25, 4), size = std::max(w, h);
     const double distance = size * random.uniform(0.5, 3);
