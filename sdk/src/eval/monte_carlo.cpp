@@ -53,10 +53,11 @@ struct SurfaceOf {
     for (const auto& t : e.triangles) parts.push_back(TrianglePart{t[0], t[1], t[2]});
     return {Surface(std::move(parts)), emitter.two_sided};
   }
-  template <class Other>
-  Sampled operator()(const Other&) const {
-    return {Surface({})};
-  }
+  // Sampled by other means, or not at all.
+  Sampled operator()(const PunctualEmitter&) const { return {Surface({})}; }
+  Sampled operator()(const DistantEmitter&) const { return {Surface({})}; }
+  Sampled operator()(const LineEmitter&) const { return {Surface({})}; }
+  Sampled operator()(const EnvironmentEmitter&) const { return {Surface({})}; }
 };
 
 template <class Kernel>
