@@ -121,9 +121,9 @@ void add_bench(CLI::App& app, const Common& common, Run& run) {
       ->required()
       ->check(CLI::IsMember(std::vector<std::string>(bench_shapes.begin(), bench_shapes.end())));
   verb->add_option("--svg", options->svg, "Draw time against error to this file; what is there is replaced");
-  verb->add_option("--samples", options->bench.samples, "Points on each side of the horizon, in batches of 256 a light")
+  verb->add_option("--samples", options->bench.samples, "Points on each side of the horizon, in batches of 4096 a light")
       ->capture_default_str()
-      ->check(CLI::Range(256, 1 << 22));
+      ->check(CLI::Range(4096, 1 << 22));
   verb->add_option("--seed", options->bench.seed, "Of lights and points")->capture_default_str();
   verb->add_option("--rounds", options->bench.rounds, "Turns that the methods take; the median counts")
       ->capture_default_str()

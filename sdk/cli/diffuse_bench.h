@@ -49,8 +49,8 @@ inline constexpr double matched_ratio = 1.05;
 inline constexpr std::array<const char*, 6> bench_shapes{"rect", "sphere", "disk", "tube", "line", "point"};
 struct DiffuseBench {
   std::string shape = "rect";  // one of bench_shapes
-  std::uint64_t samples = 16384, seed = 1;
-  int rounds = 41;
+  std::uint64_t samples = 131072, seed = 1;
+  int rounds = 21;
 };
 // `report` says how much is done, 0 to 1; false cancels. Errors: CANCELLED.
 Result<DiffuseTable> run_diffuse_bench(const DiffuseBench& bench, const std::function<bool(double)>& report);

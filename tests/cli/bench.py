@@ -22,7 +22,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for shape, one in published.items():
             svg = pathlib.Path(folder) / (shape + ".svg")
-            run = subprocess.run([etendue, "bench", shape, "--samples", "2048", "--rounds", "1", "--json", "-q", "--svg", str(svg)], capture_output=True, text=True, check=True)
+            run = subprocess.run([etendue, "bench", shape, "--samples", "4096", "--rounds", "1", "--json", "-q", "--svg", str(svg)], capture_output=True, text=True, check=True)
             document = json.loads(run.stdout)
             assert document["schema"] == "etendue.bench/1" and document["stats"]["peak_gflops"] > 0, document
             sets = document["stats"]["peak_gflops_by_set"]

@@ -16,7 +16,7 @@ using namespace etendue;
 using namespace etendue::eval;
 using protocol::Random;
 
-constexpr FarRule rules[] = {FarRule::point, FarRule::gauss2, FarRule::gauss3};
+constexpr FarRule rules[] = {FarRule::point, FarRule::gauss2, FarRule::gauss3, FarRule::gauss4};
 
 // Gauss and Legendre's nodes by Newton's iteration.
 struct Nodes {
@@ -128,8 +128,9 @@ TEST(FarLight, NothingExceedsTheBound) {
 TEST(FarLight, TheCheapestRuleWithinTheTolerance) {
   EXPECT_FALSE(far_rule(3.4, 1));
   EXPECT_FALSE(far_rule(std::numeric_limits<double>::quiet_NaN(), 1));
-  EXPECT_FALSE(far_rule(3.5, 1e-5));
-  EXPECT_FALSE(far_rule(6, 1e-5));
+  EXPECT_FALSE(far_rule(3.5, 5e-6));
+  EXPECT_EQ(far_rule(3.5, 1e-5), FarRule::gauss4);
+  EXPECT_EQ(far_rule(6, 1e-5), FarRule::gauss4);
   EXPECT_EQ(far_rule(6.2, 1e-5), FarRule::gauss3);
   EXPECT_EQ(far_rule(30, 1e-5), FarRule::gauss2);
   EXPECT_EQ(far_rule(7e4, 1e-5), FarRule::point);
@@ -152,6 +153,7 @@ TEST(FarLight, FiveTimesRule) {
   EXPECT_NEAR(*far_error(FarRule::point, 5), 0.28, 0.02);
   EXPECT_LT(*far_error(FarRule::gauss2, 5), 4.1e-3);
   EXPECT_LT(*far_error(FarRule::gauss3, 5), 3.6e-5);
+  EXPECT_LT(*far_error(FarRule::gauss4, 5), 2.4e-7);
 }
 
 // Agrees with the exact closed form where that still has its digits.

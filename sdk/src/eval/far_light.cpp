@@ -15,6 +15,10 @@ struct Node {
 constexpr std::array<Node, 1> one{{{0, 1}}};
 constexpr std::array<Node, 2> two{{{-0.57735026918962576, 0.5}, {0.57735026918962576, 0.5}}};
 constexpr std::array<Node, 3> three{{{-0.77459666924148338, 5.0 / 18}, {0, 8.0 / 18}, {0.77459666924148338, 5.0 / 18}}};
+constexpr std::array<Node, 4> four{{{-0.86113631159405258, 0.17392742256872693},
+                                    {-0.33998104358485626, 0.32607257743127307},
+                                    {0.33998104358485626, 0.32607257743127307},
+                                    {0.86113631159405258, 0.17392742256872693}}};
 
 // The integral of h g / r^4 over the area, h the point's height above the light's plane, the same for all of it, and g = n.p.
 template <class T>
@@ -40,9 +44,11 @@ T by_rule(FarRule rule, const Parallelogram<T>& light, const Vec3<T>& normal) {
     case FarRule::gauss2:
       return integrate<T>(two, light, normal);
     case FarRule::gauss3:
+      return integrate<T>(three, light, normal);
+    case FarRule::gauss4:
       break;
   }
-  return integrate<T>(three, light, normal);
+  return integrate<T>(four, light, normal);
 }
 
 // Of the rule with n nodes a side: e_k is what it misses of the mean of u^k over [-1, 1], c_k = (k + 3)(k + 2)(k + 1) / 6 the largest value
@@ -58,9 +64,11 @@ constexpr Missed missed_by(FarRule rule) {
     case FarRule::gauss2:
       return {4, 16.0 / 9, 28.0 / 9, 10.0 / 3};
     case FarRule::gauss3:
+      return {6, 32.0 / 25, 48.0 / 25, 11.0 / 3};
+    case FarRule::gauss4:
       break;
   }
-  return {6, 32.0 / 25, 48.0 / 25, 11.0 / 3};
+  return {8, 512.0 / 735, 704.0 / 735, 57.0 / 14};
 }
 
 }  // namespace
@@ -76,7 +84,7 @@ std::optional<double> far_error(FarRule rule, double distance_over_size) {
 }
 
 std::optional<FarRule> far_rule(double distance_over_size, double relative_tolerance) {
-  for (const FarRule rule : {FarRule::point, FarRule::gauss2, FarRule::gauss3}) {
+  for (const FarRule rule : {FarRule::point, FarRule::gauss2, FarRule::gauss3, FarRule::gauss4}) {
     const std::optional<double> error = far_error(rule, distance_over_size);
     if (error && *error <= relative_tolerance) return rule;
   }

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 #include <type_traits>
 #include <utility>
 
@@ -97,6 +99,24 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V inverse_sqrt(D d, V x) {
   const V guess = near_inverse_sqrt(d, x), half = hn::Mul(x, number(d, 0.5));
   return hn::Mul(guess, hn::NegMulAdd(hn::Mul(half, guess), guess, number(d, 1.5)));
+}
+// The same with as many digits as terms that cancel are worth: within 4e-7 in floats, 1e-13 in doubles without a division.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V inverse_root(D d, V x) {
+  if constexpr (in_floats<D>) {
+    return inverse_sqrt(d, x);
+  } else {
+#if HWY_ARCH_X86 && HWY_TARGET < HWY_EMU128
+    // From 12 bits to 48: (1 - e)^(-1/2) in e, to its cube.
+    const hn::Rebind<float, D> floats;
+    const V guess = hn::PromoteTo(d, hn::ApproximateReciprocalSqrt(hn::DemoteTo(floats, x))), scaled = hn::Mul(x, guess);
+    const V e = hn::NegMulAdd(scaled, guess, number(d, 1));
+    const V more = hn::Mul(e, hn::MulAdd(hn::MulAdd(e, number(d, 0.3125), number(d, 0.375)), e, number(d, 0.5)));
+    return hn::MulAdd(guess, more, guess);
+#else
+    return hn::Div(number(d, 1), hn::Sqrt(x));
+#endif
+  }
 }
 
 // 1 / x, within 2e-7 of it in floats.
@@ -230,113 +250,143 @@ HWY_INLINE Vector<V> towards(D d, const Place& place, const Vector<V>& position)
   return {away(d, place.x, position.x), away(d, place.y, position.y), away(d, place.z, position.z)};
 }
 
+// 0 where all is finite: no number less itself is zero, and neither is infinity.
+template <class V>
+HWY_INLINE V less_itself(const Vector<V>& a, const Vector<V>& b) {
+  const auto part = [](const Vector<V>& v)
+                        ETENDUE_INLINE_LAMBDA { return hn::Add(hn::Add(hn::Sub(v.x, v.x), hn::Sub(v.y, v.y)), hn::Sub(v.z, v.z)); };
+  return hn::Add(part(a), part(b));
+}
+
 // Coordinates whose squares are out of range are infinitely far: no light.
 template <class D, class V>
 HWY_INLINE V sane(D d, V value, double bound) {
   return hn::IfThenElseZero(hn::Lt(value, number(d, bound)), value);
 }
 
-// Points that floats are not enough for: kept until there are some, then evaluated in vectors of doubles, and what those refuse one by one.
-template <class Kernel>
-class Doubtful {
+// Points at a time: what a kernel refuses of them is looked through afterwards, so that nothing waits for the last of a lane's steps.
+inline constexpr std::size_t block = 1024;
+
+// The lanes that a kernel refuses, as bits.
+template <class D>
+class Marks {
  public:
-  Doubtful(const Emitter& white, const PointBatch& points, double scale, std::span<float> out, Kernel kernel, double bound)
-      : white_(white), points_(points), scale_(scale), out_(out), kernel_(kernel), bound_(bound) {}
-  // The point of each lane below `number` that is marked. Writes no results of these.
-  template <class D, class M>
-  HWY_INLINE void add(D d, M marked, std::size_t first, std::size_t number) {
-    if (count_ + hn::Lanes(d) > most) evaluate();
-    HWY_ALIGN std::array<float, hn::MaxLanes(D())> is_marked;
-    hn::Store(hn::IfThenElseZero(marked, hn::Set(d, 1.0f)), d, is_marked.data());
-    for (std::size_t k = 0; k < number; ++k)
-      if (is_marked[k] != 0) index_[count_++] = first + k;
-  }
-  void evaluate() {
-    const hn::ScalableTag<double> d;
-    using V = hn::Vec<decltype(d)>;
-    const std::size_t lanes = hn::Lanes(d);
-    const std::array<const float*, 6> in{points_.px.data(), points_.py.data(), points_.pz.data(),
-                                         points_.nx.data(), points_.ny.data(), points_.nz.data()};
-    HWY_ALIGN std::array<std::array<double, hn::MaxLanes(d)>, 6> at;
-    HWY_ALIGN std::array<double, hn::MaxLanes(d)> values, is_marked;
-    for (std::size_t i = 0; i < count_; i += lanes) {
-      for (std::size_t c = 0; c < 6; ++c)
-        for (std::size_t k = 0; k < lanes; ++k) at[c][k] = static_cast<double>(in[c][index_[std::min(i + k, count_ - 1)]]);
-      const auto part = [&](std::size_t c) { return hn::Load(d, at[c].data()); };
-      Vector<V> normal{part(3), part(4), part(5)};
-      // A float's rounding of the normal's length counts where the terms cancel.
-      const V inverse = hn::Div(hn::Set(d, 1.0), hn::Sqrt(dot(normal, normal)));
-      normal = {hn::Mul(normal.x, inverse), hn::Mul(normal.y, inverse), hn::Mul(normal.z, inverse)};
-      const V unit = hn::Set(d, scale_);
-      auto marked = hn::FirstN(d, 0);
-      const V value = kernel_(d, Point<V>{{hn::Mul(part(0), unit), hn::Mul(part(1), unit), hn::Mul(part(2), unit)}, normal}, marked);
-      hn::Store(sane(d, value, bound_), d, values.data());
-      hn::Store(hn::IfThenElseZero(marked, hn::Set(d, 1.0)), d, is_marked.data());
-      for (std::size_t k = 0; k < lanes && i + k < count_; ++k) {
-        const std::size_t to = index_[i + k];
-        out_[to] = is_marked[k] != 0 ? in_double(white_, points_, to) : static_cast<float>(values[k]);
+  HWY_INLINE void set(D d, hn::Mask<D> marked, std::size_t vector) { hn::StoreMaskBits(d, marked, bits_.data() + vector * bytes(d)); }
+  // The number of each marked lane of as many vectors, which are `indices` then. How many.
+  std::size_t list(D d, std::size_t vectors, std::array<std::uint16_t, block>& indices) {
+    const std::size_t end = vectors * bytes(d), of_byte = std::min<std::size_t>(hn::Lanes(d), 8);
+    std::fill_n(bits_.begin() + end, word, std::uint8_t{0});
+    std::size_t count = 0;
+    for (std::size_t at = 0; at < end; at += word) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, bits_.data() + at, word);
+      for (; bits != 0; bits &= bits - 1) {
+        const auto bit = static_cast<std::size_t>(std::countr_zero(bits));
+        indices[count++] = static_cast<std::uint16_t>((at + bit / 8) * of_byte + bit % 8);
       }
     }
-    count_ = 0;
+    return count;
   }
 
  private:
-  static constexpr std::size_t most = 128;
-  std::array<std::size_t, most> index_;
-  std::size_t count_ = 0;
-  const Emitter& white_;
-  const PointBatch& points_;
-  double scale_;
-  std::span<float> out_;
-  Kernel kernel_;
-  double bound_;
+  static constexpr std::size_t word = sizeof(std::uint64_t);
+  static std::size_t bytes(D d) { return (hn::Lanes(d) + 7) / 8; }
+  std::array<std::uint8_t, block + word> bits_;
 };
 
-// kernel(d, point, mask&), inlined, gives the value of every lane, in floats and in doubles, and marks the lanes that it refuses. `scale`:
-// the light's units a metre. No value reaches `bound`. How many points are not finite; they become `where_none`.
+// Points that floats are not enough for, evaluated in vectors of doubles, and what those refuse one by one. How many are not finite.
+template <class Kernel>
+std::size_t in_doubles(const Emitter& white, double scale, const PointBatch& points, std::size_t first,
+                       std::span<const std::uint16_t> indices, std::span<float> out, float where_none, Kernel kernel, double bound) {
+  const hn::ScalableTag<double> d;
+  using V = hn::Vec<decltype(d)>;
+  const std::size_t lanes = hn::Lanes(d);
+  const hn::Rebind<float, decltype(d)> floats;
+  const std::array<const float*, 6> in{points.px.data(), points.py.data(), points.pz.data(),
+                                       points.nx.data(), points.ny.data(), points.nz.data()};
+  HWY_ALIGN std::array<std::array<float, block>, 6> at;
+  for (std::size_t c = 0; c < 6; ++c) {
+    for (std::size_t i = 0; i < indices.size(); ++i) at[c][i] = in[c][first + indices[i]];
+    std::fill_n(at[c].begin() + indices.size(), (lanes - indices.size() % lanes) % lanes, 1.0f);
+  }
+  HWY_ALIGN std::array<float, hn::MaxLanes(d)> values;
+  HWY_ALIGN std::array<double, hn::MaxLanes(d)> refused;
+  const V unit = hn::Set(d, scale);
+  std::size_t not_finite = 0;
+  for (std::size_t i = 0; i < indices.size(); i += lanes) {
+    const auto part = [&](std::size_t c) { return hn::PromoteTo(d, hn::Load(floats, at[c].data() + i)); };
+    const Vector<V> position{part(0), part(1), part(2)};
+    Vector<V> normal{part(3), part(4), part(5)};
+    const V nothing = less_itself(position, normal);
+    if constexpr (!requires { Kernel::linear_in_normal; }) {
+      // A float's rounding of the normal's length counts where the terms cancel.
+      const V inverse = inverse_root(d, dot(normal, normal));
+      normal = {hn::Mul(normal.x, inverse), hn::Mul(normal.y, inverse), hn::Mul(normal.z, inverse)};
+    }
+    auto marked = hn::FirstN(d, 0);
+    const V value = kernel(d, Point<V>{{hn::Mul(position.x, unit), hn::Mul(position.y, unit), hn::Mul(position.z, unit)}, normal}, marked);
+    hn::Store(hn::DemoteTo(floats, sane(d, value, bound)), floats, values.data());
+    const std::size_t number = std::min(lanes, indices.size() - i);
+    for (std::size_t k = 0; k < number; ++k) out[first + indices[i + k]] = values[k];
+    const auto finite = hn::Eq(nothing, hn::Zero(d));
+    if (HWY_LIKELY(hn::AllTrue(d, hn::AndNot(marked, finite)))) continue;
+    hn::Store(hn::IfThenElse(finite, hn::IfThenElseZero(marked, hn::Set(d, 1.0)), hn::Set(d, -1.0)), d, refused.data());
+    for (std::size_t k = 0; k < number; ++k) {
+      const std::size_t to = first + indices[i + k];
+      if (refused[k] > 0) out[to] = in_double(white, points, to);
+      if (refused[k] < 0) out[to] = where_none, ++not_finite;
+    }
+  }
+  return not_finite;
+}
+
+// kernel(d, point, mask&), inlined, gives the value of every lane, in floats and in doubles, and marks the lanes that it refuses: those of
+// a point that is not finite among them if it says so (refuses_not_finite). `scale`: the light's units a metre. No value reaches `bound`.
+// How many points are not finite; they become `where_none`.
 template <class Kernel>
 HWY_INLINE std::size_t at_every_point(const Emitter& white, double scale, const PointBatch& points, std::span<float> out, float where_none,
                                       Kernel kernel, double bound = 4) {
   const hn::ScalableTag<float> d;
   using V = hn::Vec<decltype(d)>;
-  const std::size_t lanes = hn::Lanes(d), count = out.size();
-  std::size_t without = 0;
-  Doubtful<Kernel> doubtful(white, points, scale, out, kernel, bound);
-  const std::array<const float*, 6> all{points.px.data(), points.py.data(), points.pz.data(),
-                                        points.nx.data(), points.ny.data(), points.nz.data()};
-  // The last points stand in a vector of their own.
+  const std::size_t lanes = hn::Lanes(d);
+  const V unit = hn::Set(d, static_cast<float>(scale));
+  Marks<decltype(d)> marks;
+  std::array<std::uint16_t, block> indices;
   HWY_ALIGN std::array<std::array<float, hn::MaxLanes(d)>, 7> last;
-  for (std::size_t i = 0; i < count; i += lanes) {
-    const std::size_t number = std::min(lanes, count - i);
-    const bool whole = number == lanes;
-    std::array<const float*, 6> in;
-    for (std::size_t k = 0; k < 6; ++k) in[k] = all[k] + i;
-    float* to = out.data() + i;
-    if (HWY_UNLIKELY(!whole)) {
+  std::size_t without = 0;
+  for (std::size_t first = 0; first < out.size();) {
+    const std::size_t left = out.size() - first, whole = std::min(left - left % lanes, block), count = whole > 0 ? whole : left;
+    std::array<const float*, 6> in{points.px.data(), points.py.data(), points.pz.data(),
+                                   points.nx.data(), points.ny.data(), points.nz.data()};
+    for (const float*& from : in) from += first;
+    float* to = out.data() + first;
+    if (whole == 0) {
+      // The last points stand in a vector of their own.
       for (std::size_t k = 0; k < 6; ++k) {
         std::fill_n(last[k].begin(), lanes, 1.0f);
-        std::copy_n(in[k], number, last[k].begin());
+        std::copy_n(in[k], count, last[k].begin());
         in[k] = last[k].data();
       }
       to = last[6].data();
     }
-    const V x = hn::LoadU(d, in[0]), y = hn::LoadU(d, in[1]), z = hn::LoadU(d, in[2]);
-    const Vector<V> normal{hn::LoadU(d, in[3]), hn::LoadU(d, in[4]), hn::LoadU(d, in[5])};
-    // No number less itself is zero, and neither is infinity.
-    const auto part = [](V a) { return hn::Sub(a, a); };
-    const auto valid =
-        hn::Eq(hn::Add(hn::Add(hn::Add(part(x), part(y)), hn::Add(part(z), part(normal.x))), hn::Add(part(normal.y), part(normal.z))),
-               hn::Zero(d));
-    const V unit = hn::Set(d, static_cast<float>(scale));
-    auto marked = hn::FirstN(d, 0);
-    const V value = kernel(d, Point<V>{{hn::Mul(x, unit), hn::Mul(y, unit), hn::Mul(z, unit)}, normal}, marked);
-    hn::StoreU(hn::IfThenElse(valid, sane(d, value, bound), hn::Set(d, where_none)), d, to);
-    if (HWY_UNLIKELY(!hn::AllTrue(d, valid))) without += lanes - hn::CountTrue(d, valid);
-    marked = hn::And(marked, valid);
-    if (HWY_UNLIKELY(!whole)) std::copy_n(last[6].begin(), number, out.data() + i);
-    if (HWY_UNLIKELY(!hn::AllFalse(d, marked))) doubtful.add(d, marked, i, number);
+    for (std::size_t i = 0, vector = 0; i < count; i += lanes, ++vector) {
+      const Vector<V> position{hn::LoadU(d, in[0] + i), hn::LoadU(d, in[1] + i), hn::LoadU(d, in[2] + i)};
+      const Vector<V> normal{hn::LoadU(d, in[3] + i), hn::LoadU(d, in[4] + i), hn::LoadU(d, in[5] + i)};
+      auto marked = hn::FirstN(d, 0);
+      const Point<V> point{{hn::Mul(position.x, unit), hn::Mul(position.y, unit), hn::Mul(position.z, unit)}, normal};
+      V value = sane(d, kernel(d, point, marked), bound);
+      if constexpr (!requires { Kernel::refuses_not_finite; })
+        marked = hn::Or(marked, hn::Not(hn::Eq(less_itself(position, normal), hn::Zero(d))));
+      hn::StoreU(value, d, to + i);
+      marks.set(d, marked, vector);
+    }
+    if (whole == 0) std::copy_n(last[6].begin(), count, out.data() + first);
+    std::size_t doubtful = marks.list(d, (count + lanes - 1) / lanes, indices);
+    while (doubtful > 0 && indices[doubtful - 1] >= count) --doubtful;
+    if (doubtful > 0)
+      without += in_doubles(white, scale, points, first, std::span(indices.data(), doubtful), out, where_none, kernel, bound);
+    first += count;
   }
-  doubtful.evaluate();
   return without;
 }
 

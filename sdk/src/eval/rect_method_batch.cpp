@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 
 #include "eval/method_batch-inl.h"
+#include "eval/rect_rules-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etendue::eval::HWY_NAMESPACE {
@@ -242,143 +243,6 @@ HWY_INLINE Lanes hill_ratio_table(const Seen& s, const float* table) {
   return hn::Mul(hn::Mul(number(static_cast<float>(pi)), p.factor), hn::MulAdd(hn::Sub(high, low), v, low));
 }
 
-// ---- Ours: in the light's own frame, where sides are straight along x and y ----
-
-struct Framed {
-  Lanes x, y, z, n_x, n_y, n_z, half_x, half_y;  // of the centre; the light faces along z, z < 0 is its front
-  HWY_INLINE Framed(const FlatRect& light, const Vector3& position, const Vector3& n)
-      : x(number(0)), y(x), z(x), n_x(x), n_y(x), n_z(x), half_x(number(light.half_x)), half_y(number(light.half_y)) {
-    const Vector3 centre = numbers(light.centre) - position, ex = numbers(light.x), ey = numbers(light.y), ez = numbers(light.normal);
-    x = dot(centre, ex), y = dot(centre, ey), z = dot(centre, ez);
-    n_x = dot(n, ex), n_y = dot(n, ey), n_z = dot(n, ez);
-  }
-};
-// Gauss and Legendre's places in [-1, 1] and shares.
-struct Node {
-  float at, share;
-};
-constexpr std::array<Node, 1> one_node{{{0, 1}}};
-constexpr std::array<Node, 2> two_nodes{{{-0.57735027f, 0.5f}, {0.57735027f, 0.5f}}};
-constexpr std::array<Node, 3> three_nodes{{{-0.77459667f, 0.27777778f}, {0, 0.44444444f}, {0.77459667f, 0.27777778f}}};
-
-// The integral of h n.p / r^4 over the area, n.p at every node no less than 0.
-template <std::size_t N>
-HWY_INLINE Lanes by_nodes(const Framed& f, const std::array<Node, N>& nodes) {
-  std::array<Lanes, N> y2{}, y_up{};
-  const Lanes z2 = hn::Mul(f.z, f.z), z_up = hn::Mul(f.z, f.n_z);
-  each<N>([&](auto j) ETENDUE_INLINE_LAMBDA {
-    const Lanes y = hn::MulAdd(number(nodes[j].at), f.half_y, f.y);
-    y2[j] = hn::MulAdd(y, y, z2), y_up[j] = hn::MulAdd(y, f.n_y, z_up);
-  });
-  Lanes sum = number(0);
-  each<N>([&](auto i) ETENDUE_INLINE_LAMBDA {
-    const Lanes x = hn::MulAdd(number(nodes[i].at), f.half_x, f.x);
-    Lanes row = number(0);
-    each<N>([&](auto j) ETENDUE_INLINE_LAMBDA {
-      const Lanes near = near_inverse(hn::MulAdd(x, x, y2[j])), up = positive(hn::MulAdd(x, f.n_x, y_up[j]));
-      row = hn::MulAdd(hn::Mul(hn::Mul(near, near), number(nodes[j].share)), up, row);
-    });
-    sum = hn::MulAdd(row, number(nodes[i].share), sum);
-  });
-  return hn::Mul(hn::Mul(hn::Mul(number(-4), f.z), hn::Mul(f.half_x, f.half_y)), sum);
-}
-
-// theta / sin(theta) in t = 1 - cos(theta) up to a right angle, within a relative 8e-8: the least of all polynomials of its degree that are
-// 1 at 0.
-constexpr std::array<double, 9> over_sine{
-    1, 0.333325869, 0.133567985, 0.054650157, 0.0380049009, -0.0229278993, 0.0581812321, -0.0411491849, 0.0171431505};
-
-// n.(a x b) theta / |a x b|, of `across` = n.(a x b) / |a||b| and the cosine between a and b.
-template <std::size_t N>
-HWY_INLINE Lanes sum_of_edges(const std::array<Lanes, N>& across, const std::array<Lanes, N>& cosine) {
-  const Floats d;
-  std::array<Lanes, N> t = cosine;
-  Lit any = hn::FirstN(d, 0);
-  each<N>([&](auto i) ETENDUE_INLINE_LAMBDA {
-    t[i] = hn::Sub(number(1), hn::Abs(cosine[i]));
-    any = hn::Or(any, hn::Lt(cosine[i], number(0)));
-  });
-  std::array<Lanes, N> fit = polynomials(d, t, over_sine);
-  if (!hn::AllFalse(d, any)) {
-    each<N>([&](auto i) ETENDUE_INLINE_LAMBDA {
-      const Lanes sine2 = hn::Max(hn::Mul(t[i], hn::Sub(number(2), t[i])), number(1e-12f));
-      const Lanes turned = hn::MulSub(number(static_cast<float>(pi)), inverse_sqrt(d, sine2), fit[i]);
-      fit[i] = hn::IfThenElse(hn::Lt(cosine[i], number(0)), turned, fit[i]);
-    });
-  }
-  Lanes sum = hn::Mul(across[0], fit[0]);
-  each<N - 1>([&](auto i) ETENDUE_INLINE_LAMBDA { sum = hn::MulAdd(across[i + 1], fit[i + 1], sum); });
-  return sum;
-}
-
-// Lambert's sum over the sides above the horizon, and over the horizon between them.
-HWY_INLINE Lanes by_edges(const Framed& f) {
-  const Floats d;
-  const Lanes x0 = hn::Sub(f.x, f.half_x), x1 = hn::Add(f.x, f.half_x), y0 = hn::Sub(f.y, f.half_y), y1 = hn::Add(f.y, f.half_y);
-  const Lanes z2 = hn::Mul(f.z, f.z), up_z = hn::Mul(f.n_z, f.z);
-  const Lanes bottom2 = hn::MulAdd(y0, y0, z2), top2 = hn::MulAdd(y1, y1, z2), left2 = hn::Mul(x0, x0), right2 = hn::Mul(x1, x1);
-  const Lanes up_bottom = hn::MulAdd(f.n_y, y0, up_z), up_top = hn::MulAdd(f.n_y, y1, up_z);
-  // Corners counter-clockwise from (x0, y0): their heights over the horizon, one over their distances.
-  const std::array<Lanes, 4> up{hn::MulAdd(f.n_x, x0, up_bottom), hn::MulAdd(f.n_x, x1, up_bottom), hn::MulAdd(f.n_x, x1, up_top),
-                                hn::MulAdd(f.n_x, x0, up_top)};
-  const std::array<Lanes, 4> near{inverse_sqrt(d, hn::Add(left2, bottom2)), inverse_sqrt(d, hn::Add(right2, bottom2)),
-                                  inverse_sqrt(d, hn::Add(right2, top2)), inverse_sqrt(d, hn::Add(left2, top2))};
-  // n.(a x unit vector along the side) of the bottom, right, top and left one.
-  const Lanes m_y = hn::Mul(f.n_y, f.z), m_x = hn::Mul(f.n_x, f.z);
-  const std::array<Lanes, 4> m{hn::NegMulAdd(f.n_z, y0, m_y), hn::MulSub(f.n_z, x1, m_x), hn::MulSub(f.n_z, y1, m_y),
-                               hn::NegMulAdd(f.n_z, x0, m_x)};
-  const std::array<Lit, 4> above{hn::Ge(up[0], number(0)), hn::Ge(up[1], number(0)), hn::Ge(up[2], number(0)), hn::Ge(up[3], number(0))};
-  const Lit some = hn::Or(hn::Or(above[0], above[1]), hn::Or(above[2], above[3]));
-  const Lit all = hn::And(hn::And(above[0], above[1]), hn::And(above[2], above[3]));
-  const Lanes width = hn::Add(f.half_x, f.half_x), height = hn::Add(f.half_y, f.half_y);
-  const std::array<Lanes, 4> other2{bottom2, hn::Add(right2, z2), top2, hn::Add(left2, z2)};
-  const std::array<Lanes, 4> begin{x0, y0, x1, y1}, end{x1, y1, x0, y0};
-  if (hn::AllTrue(d, all)) {
-    std::array<Lanes, 4> across = m, cosine = m;
-    each<4>([&](auto i) ETENDUE_INLINE_LAMBDA {
-      const Lanes product = hn::Mul(near[i], near[(i + 1) % 4]);
-      across[i] = hn::Mul(hn::Mul(m[i], i % 2 == 0 ? width : height), product);
-      cosine[i] = hn::Mul(hn::MulAdd(begin[i], end[i], other2[i]), product);
-    });
-    return positive(hn::Mul(sum_of_edges(across, cosine), number(-0.5f)));
-  }
-  // Where the sides' lines meet the horizon, within the sides.
-  const auto over = [&](Lanes a)
-                        ETENDUE_INLINE_LAMBDA { return inverse(d, hn::IfThenElse(hn::Lt(hn::Abs(a), number(1e-20f)), number(1e-20f), a)); };
-  const Lanes over_x = over(hn::Neg(f.n_x)), over_y = over(hn::Neg(f.n_y));
-  const auto between = [&](Lanes low, Lanes x, Lanes high) ETENDUE_INLINE_LAMBDA { return hn::Min(hn::Max(x, low), high); };
-  const std::array<Lanes, 4> crossing{
-      between(x0, hn::Mul(up_bottom, over_x), x1), between(y0, hn::Mul(hn::MulAdd(f.n_x, x1, up_z), over_y), y1),
-      between(x0, hn::Mul(up_top, over_x), x1), between(y0, hn::Mul(hn::MulAdd(f.n_x, x0, up_z), over_y), y1)};
-  const auto place = [&](Lit bottom, Lit right, Lit top) ETENDUE_INLINE_LAMBDA {
-    const auto one_of = [&](Lanes a, Lanes b, Lanes c, Lanes e) ETENDUE_INLINE_LAMBDA {
-      return hn::IfThenElse(bottom, a, hn::IfThenElse(right, b, hn::IfThenElse(top, c, e)));
-    };
-    return std::array<Lanes, 2>{one_of(crossing[0], x1, crossing[2], x0), one_of(y0, crossing[1], y1, crossing[3])};
-  };
-  const auto gone = place(hn::AndNot(above[1], above[0]), hn::AndNot(above[2], above[1]), hn::AndNot(above[3], above[2]));
-  const auto risen = place(hn::AndNot(above[0], above[1]), hn::AndNot(above[1], above[2]), hn::AndNot(above[2], above[3]));
-  const auto near_of = [&](const std::array<Lanes, 2>& p)
-                           ETENDUE_INLINE_LAMBDA { return inverse_sqrt(d, hn::MulAdd(p[0], p[0], hn::MulAdd(p[1], p[1], z2))); };
-  const Lanes near_gone = near_of(gone), near_risen = near_of(risen);
-  std::array<Lanes, 5> across{z2, z2, z2, z2, z2}, cosine = across;
-  each<4>([&](auto i) ETENDUE_INLINE_LAMBDA {
-    constexpr std::size_t j = (i + 1) % 4;
-    const Lanes from = hn::IfThenElse(above[i], begin[i], crossing[i]), to = hn::IfThenElse(above[j], end[i], crossing[i]);
-    const Lanes product = hn::Mul(hn::IfThenElse(above[i], near[i], near_risen), hn::IfThenElse(above[j], near[j], near_gone));
-    const Lanes length = hn::IfThenElseZero(hn::Or(above[i], above[j]), i < 2 ? hn::Sub(to, from) : hn::Sub(from, to));
-    across[i] = hn::Mul(hn::Mul(m[i], length), product);
-    cosine[i] = hn::IfThenElse(hn::Or(above[i], above[j]), hn::Mul(hn::MulAdd(from, to, other2[i]), product), number(1));
-  });
-  const Lit cut = hn::AndNot(all, some);
-  const Lanes dx = hn::Sub(risen[0], gone[0]), dy = hn::Sub(risen[1], gone[1]), product = hn::Mul(near_gone, near_risen);
-  const Lanes turn = hn::MulSub(gone[0], dy, hn::Mul(gone[1], dx));
-  const Lanes whole = hn::MulAdd(f.z, hn::MulSub(f.n_y, dx, hn::Mul(f.n_x, dy)), hn::Mul(f.n_z, turn));
-  across[4] = hn::IfThenElseZero(cut, hn::Mul(whole, product));
-  cosine[4] = hn::IfThenElse(cut, hn::Mul(hn::MulAdd(gone[0], risen[0], hn::MulAdd(gone[1], risen[1], z2)), product), number(1));
-  return positive(hn::Mul(sum_of_edges(across, cosine), number(-0.5f)));
-}
-
 // ---- The choice ----
 
 HWY_INLINE Lanes only_in_front(const Seen& s, Lanes value) { return hn::IfThenElseZero(hn::Gt(s.height, number(0)), value); }
@@ -392,7 +256,9 @@ HWY_INLINE std::size_t seen(const FlatRect& light, const PointBatch& points, std
 template <class Method>
 HWY_INLINE std::size_t framed(const FlatRect& light, const PointBatch& points, std::span<float> sr, float where_none, Method method) {
   return over_points(points, sr, where_none, [&](const Vector3& position, const Vector3& n) ETENDUE_INLINE_LAMBDA {
-    const Framed f(light, position, n);
+    const Vector3 centre = numbers(light.centre) - position, x = numbers(light.x), y = numbers(light.y), z = numbers(light.normal);
+    const Framed<Lanes> f{dot(centre, x), dot(centre, y), dot(centre, z),       dot(n, x),
+                          dot(n, y),      dot(n, z),      number(light.half_x), number(light.half_y)};
     return hn::IfThenElseZero(hn::Lt(f.z, number(0)), method(f));
   });
 }
@@ -431,13 +297,13 @@ std::size_t RectBy(BatchRule rule, const FlatRect& light, const PointBatch& poin
     case BatchRule::hill_cheap:
       return by([](const Seen& s) ETENDUE_INLINE_LAMBDA { return hill_cheap(s); });
     case BatchRule::nodes_1:
-      return ours([](const Framed& f) ETENDUE_INLINE_LAMBDA { return by_nodes(f, one_node); });
+      return ours([](const Framed<Lanes>& f) ETENDUE_INLINE_LAMBDA { return by_nodes(Floats(), f, one_node, near_inverse); });
     case BatchRule::nodes_2:
-      return ours([](const Framed& f) ETENDUE_INLINE_LAMBDA { return by_nodes(f, two_nodes); });
+      return ours([](const Framed<Lanes>& f) ETENDUE_INLINE_LAMBDA { return by_nodes(Floats(), f, two_nodes, near_inverse); });
     case BatchRule::nodes_3:
-      return ours([](const Framed& f) ETENDUE_INLINE_LAMBDA { return by_nodes(f, three_nodes); });
+      return ours([](const Framed<Lanes>& f) ETENDUE_INLINE_LAMBDA { return by_nodes(Floats(), f, three_nodes, near_inverse); });
     default:
-      return ours([](const Framed& f) ETENDUE_INLINE_LAMBDA { return by_edges(f); });
+      return ours([](const Framed<Lanes>& f) ETENDUE_INLINE_LAMBDA { return positive(by_edges(Floats(), f).value); });
   }
 }
 
