@@ -164,7 +164,8 @@ Status Evaluator::accepts(const Emitter& emitter, const std::string& name) const
                  {}};
   };
   // None knows patterns or ranges of area lights.
-  if (published_ != nullptr && !(has_closed_form(emitter) && published_->illuminance(emitter, probe.position, probe.normal)))
+  if (published_ != nullptr &&
+      !(has_closed_form(emitter) && !is_window(emitter.window) && published_->illuminance(emitter, probe.position, probe.normal)))
     return refused(published_->name);
   if (rule_ != nullptr && !rule_->luminance(emitter, shading_point(probe))) return refused(rule_->name);
   return Done{};
@@ -209,7 +210,7 @@ Answer Evaluator::operator()(const Emitter& emitter, const PointRow& p) const {
     const Rgb exact = eval::illuminance(emitter, p.position, p.normal);
     return {value, largest(value - exact) + rounding_of(emitter, exact), published_->name};
   }
-  if (!lambert_ && (rule_ != nullptr || (fast_ && has_closed_form(emitter)))) return by_rule(emitter, p);
+  if (!lambert_ && (rule_ != nullptr || (fast_ && has_closed_form(emitter) && !is_window(emitter.window)))) return by_rule(emitter, p);
   if (!lambert_ || !closed_ || !has_closed_form(emitter)) return by_reference(emitter, p);
   const Rgb value = eval::illuminance(emitter, p.position, p.normal);
   return {value, rounding_of(emitter, value), "exact"};

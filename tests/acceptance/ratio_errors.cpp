@@ -6,30 +6,16 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <map>
 #include <string>
+
+#include "stopwatch.h"
 
 namespace {
 
 using namespace etendue::eval;
 using namespace etendue::eval::protocol;
-
-class Stopwatch {
- public:
-  template <class Work>
-  auto operator()(Work work) {
-    const auto start = std::chrono::steady_clock::now();
-    auto result = work();
-    total_ += std::chrono::steady_clock::now() - start;
-    return result;
-  }
-  double seconds() const { return std::chrono::duration<double>(total_).count(); }
-
- private:
-  std::chrono::steady_clock::duration total_{};
-};
 
 struct Cost {
   double answers = 0, evaluations = 0, beyond = 0;

@@ -366,6 +366,22 @@ TEST(IlluminanceBatch, OtherShapesOneByOneAndWhatIsNoNumberCounted) {
   EXPECT_EQ(LightBatch::of(picture).error().code, "EVALUATION_UNSUPPORTED");
 }
 
+// Above, across and beyond the range.
+TEST(IlluminanceBatch, AreaLightsAndLinesWithAWindow) {
+  Random random(9);
+  Worst worst;
+  for (const Kind kind : {Kind::sphere, Kind::rect, Kind::disk, Kind::capsule, Kind::flat_tube, Kind::open_tube}) {
+    for (int i = 0; i < 20; ++i) {
+      Emitter light = protocol::place(kind, random, true).emitter;
+      light.window = {i % 2 == 0 ? Falloff::frostbite : Falloff::gltf, random.uniform(0.5, 4)};
+      Points points;
+      for (int k = 0; k < 37; ++k) points.add(centre_of(light.shape) + random.direction() * random.uniform(0, 5), random.direction());
+      worst.judge(light, points, evaluated(light, points));
+    }
+  }
+  EXPECT_LE(worst.ratio, 1);
+}
+
 TEST(IlluminanceBatch, ScaleTimesValueIsIlluminance) {
   const Rgb colour{3, 2, 1};
   const auto punctual = [&](const auto& shape) {
@@ -379,11 +395,16 @@ TEST(IlluminanceBatch, ScaleTimesValueIsIlluminance) {
     e.radiance = colour;
     return e;
   };
+  const auto ending = [](Emitter e) {
+    e.window = {Falloff::gltf, 2.5};
+    return e;
+  };
   Points points;
   points.add({0.2, -0.3, 0.1}, normalised(Vec3d{0.1, 0.2, 1}));
   for (const Emitter& light :
        {punctual(PointShape{}), punctual(SpotShape{0.1, 0.5}), punctual(FrustumShape{1, 1}), shining(DistantEmitter{{0, 0, 1}, colour}),
         shining(DistantEmitter{{0, 0, 1}, colour, 0.3}), shining(LineEmitter{{0, 0, 1}, {1, 0, 1}, colour}),
+        ending(shining(LineEmitter{{0, 0, 1}, {1, 0, 1}, colour})), ending(shining(SphereEmitter{{0, 0, 3}, 1})),
         shining(SphereEmitter{{0, 0, 3}, 1}), shining(TubeEmitter{{0, 0, 1}, {1, 0, 1}, 0.2, Caps::flat}), shining(EnvironmentEmitter{})}) {
     const Result<LightBatch> batch = LightBatch::of(light);
     ASSERT_TRUE(batch.ok());

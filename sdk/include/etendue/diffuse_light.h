@@ -17,8 +17,8 @@ bool is_diffuse(const Brdf& brdf);
 // the BRDF bends: 1 to 16 nodes a side, on the mean 18 for a rectangle and 38 for a disk across the horizon at half to six times their
 // size. As an aggregate over such lights, for each of these models at any roughness and view, .02 % off above the horizon and .25 % across
 // it (tests/acceptance/area_lights --only ratio). Estimate::error is what the nodes tell of it: an estimate, which 99 of 100 answers keep,
-// no bound. Lambert is exact. Without a closed form of E (has_closed_form), of lines and of directions it is `reference` to 1e-4. Nothing
-// for BRDFs that are not diffuse.
+// no bound. Lambert is exact. Without a closed form of E (has_closed_form), with a window, of lines and of directions it is `reference` to
+// 1e-4. Nothing for BRDFs that are not diffuse.
 std::optional<Estimate> diffuse_luminance(const Emitter& emitter, const ShadingPoint& point);
 
 // What others do, to be measured against it: E times the BRDF for one direction.

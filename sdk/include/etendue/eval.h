@@ -90,6 +90,8 @@ struct Window {
   double range_m = 0;  // 0: no range
 };
 double window_at(const Window& window, double distance_m);
+// Whether it is one: less than 1 somewhere.
+bool is_window(const Window& window);
 
 // Emission pattern over a planar emitter's own uv in [0,1]^2, or a mesh's texture coordinates; multiplies the radiance.
 using Pattern = std::function<Rgb(Vec2d uv)>;
@@ -210,8 +212,9 @@ struct SampledEstimate {
 // Of one seed always the same; points at other places are independent. Lights without extent are exact and take no samples.
 SampledEstimate monte_carlo(const Emitter& emitter, const ShadingPoint& point, const Sampling& sampling);
 
-// Cosine integral of the light's luminance (lux) in closed form: every light without pattern, window on an extended light or environment
-// map; `reference` with a white Lambert surface for those. Not below the horizon of `normal`.
+// Cosine integral of the light's luminance (lux) in closed form: every light without pattern or environment map; `reference` with a white
+// Lambert surface for those. Not below the horizon of `normal`. A window on an extended light too, but for round ones an integral over one
+// variable is left, to 1e-12 sr; from inside of one that emits on both sides it is `reference`.
 // The inside of a sphere, tube or disk's back is dark unless the light is two-sided. From within the plane of a flat light it is not seen.
 Rgb illuminance(const Emitter& emitter, const Vec3d& position, const Vec3d& normal);
 // Whether it is one that has a closed form.

@@ -20,7 +20,7 @@ struct PointBatch {
 // One light made ready for batches.
 class LightBatch {
  public:
-  // Errors: EVALUATION_UNSUPPORTED: no closed form (eval.h): a pattern, a map, an area light or line with a window.
+  // Errors: EVALUATION_UNSUPPORTED: no closed form (eval.h): a pattern or a map.
   static Result<LightBatch> of(const Emitter& emitter);
 
   // The illuminance at each point over scale(), so that illuminance() = scale() * value, by the shape of the light:
@@ -32,8 +32,9 @@ class LightBatch {
   // point lights, spots, frusta, lines and distant lights with
   //     |error| <= 1e-5 value + 2e-6 (what the axial intensity gives a facing surface from the closest point, no window),
   // of doubles where those of floats would not hold it. The solid angle of a mesh is that of all its triangles that face the point. All
-  // else is evaluated one by one: tubes with flat ends or open ones, and profiles. What is too large for a float becomes the largest.
-  // Points with a number that is not finite become `where_none`, and are counted. Errors: BATCH_SIZES_DIFFER.
+  // else is evaluated one by one: tubes with flat ends or open ones, profiles, and area lights and lines with a window. What is too large
+  // for a float becomes the largest. Points with a number that is not finite become `where_none`, and are counted. Errors:
+  // BATCH_SIZES_DIFFER.
   BatchOutcome projected_solid_angles(const PointBatch& points, std::span<float> values, float where_none) const;
   // cd/m2, cd or lx: what the light emits.
   const Rgb& scale() const { return scale_; }

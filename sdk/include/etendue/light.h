@@ -97,7 +97,7 @@ struct DaylightColour {
 // Chromaticity alone: scaled to Y = 1 when the light is resolved.
 using LightColour = std::variant<RgbColour, TemperatureColour, DaylightColour>;
 
-// Distance windows: what multiplies 1/d^2 (and, for area lights, the unwindowed light).
+// Distance windows: what multiplies 1/d^2, and the radiance of area lights by the distance of each of their points.
 enum class Falloff {
   inverse_square,  // none: the window is 1
   frostbite,       // saturate(1 - (d/r)^4)^2                 (Lagarde and de Rousiers, eq 26)

@@ -2,6 +2,7 @@
 
 #include "illuminance.h"
 #include "kernels.h"
+#include "modulation.h"
 #include "sector_rule.h"
 
 #include <algorithm>
@@ -119,7 +120,7 @@ bool is_diffuse(const Brdf& brdf) {
 
 std::optional<Estimate> diffuse_luminance(const Emitter& emitter, const ShadingPoint& point) {
   if (!is_diffuse(point.brdf)) return std::nullopt;
-  if (std::holds_alternative<Lambert>(point.brdf) || !has_closed_form(emitter) || !has_outline(emitter))
+  if (std::holds_alternative<Lambert>(point.brdf) || is_modulated(emitter) || !has_closed_form(emitter) || !has_outline(emitter))
     return reference(emitter, point, otherwise);
   const LocalFrame frame(point.position, point.normal);
   const Vec3d view = frame.vector(point.view);

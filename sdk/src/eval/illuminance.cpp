@@ -2,6 +2,7 @@
 
 #include "line.h"
 #include "punctual.h"
+#include "window_loss.h"
 
 #include <algorithm>
 #include <cmath>
@@ -162,19 +163,30 @@ struct ClosedForm {
   }
 };
 
+// At distances that a window could tell.
+bool has_extent(const Emitter& emitter) {
+  return !std::holds_alternative<PunctualEmitter>(emitter.shape) && !std::holds_alternative<DistantEmitter>(emitter.shape) &&
+         !std::holds_alternative<EnvironmentEmitter>(emitter.shape);
+}
+
 }  // namespace
 
 bool has_closed_form(const Emitter& emitter) {
   if (emitter.pattern) return false;
-  const bool punctual = std::holds_alternative<PunctualEmitter>(emitter.shape) || std::holds_alternative<DistantEmitter>(emitter.shape);
-  if (!punctual && emitter.window.falloff != Falloff::inverse_square && emitter.window.range_m > 0) return false;
   const auto* environment = std::get_if<EnvironmentEmitter>(&emitter.shape);
   return environment == nullptr || !environment->map;
 }
 
 std::optional<Rgb> closed_illuminance(const Emitter& emitter, const Vec3d& position, const LocalFrame& frame, const Horizons& horizons) {
   if (!has_closed_form(emitter)) return std::nullopt;
-  return std::visit(ClosedForm{emitter, position, frame, horizons}, emitter.shape);
+  const Rgb whole = std::visit(ClosedForm{emitter, position, frame, horizons}, emitter.shape);
+  if (!is_window(emitter.window) || !has_extent(emitter) || whole == Rgb{}) return whole;
+  const std::optional<WindowLoss> loss = window_loss(emitter, frame, horizons);
+  if (!loss) return std::nullopt;
+  if (loss->all) return Rgb{};
+  const auto* line = std::get_if<LineEmitter>(&emitter.shape);
+  const Rgb rest = whole - (line != nullptr ? line->intensity : emitter.radiance) * loss->value;
+  return Rgb{std::max(rest.x, 0.0), std::max(rest.y, 0.0), std::max(rest.z, 0.0)};
 }
 
 Rgb illuminance(const Emitter& emitter, const Vec3d& position, const Vec3d& normal) {

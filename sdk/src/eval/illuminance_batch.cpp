@@ -36,6 +36,9 @@ class OneByOne final : public LightBatch::Shape {
 };
 
 std::shared_ptr<const LightBatch::Shape> batch_of(const Emitter& white) {
+  if (std::holds_alternative<PunctualEmitter>(white.shape)) return punctual_batch(white);
+  if (std::holds_alternative<DistantEmitter>(white.shape)) return distant_batch(white);
+  if (is_window(white.window)) return nullptr;
   if (std::holds_alternative<SphereEmitter>(white.shape)) return sphere_batch(white);
   if (std::holds_alternative<PolygonEmitter>(white.shape)) {
     if (auto rect = rect_batch(white)) return rect;
@@ -44,8 +47,6 @@ std::shared_ptr<const LightBatch::Shape> batch_of(const Emitter& white) {
   if (std::holds_alternative<TubeEmitter>(white.shape)) return tube_batch(white);
   if (std::holds_alternative<MeshEmitter>(white.shape)) return mesh_batch(white);
   if (std::holds_alternative<LineEmitter>(white.shape)) return line_batch(white);
-  if (std::holds_alternative<PunctualEmitter>(white.shape)) return punctual_batch(white);
-  if (std::holds_alternative<DistantEmitter>(white.shape)) return distant_batch(white);
   if (std::holds_alternative<DiskEmitter>(white.shape)) return disk_batch(white);
   return nullptr;
 }
@@ -71,8 +72,7 @@ float in_double(const Emitter& white, const PointBatch& p, std::size_t i) {
 }
 
 Result<LightBatch> LightBatch::of(const Emitter& emitter) {
-  if (!has_closed_form(emitter))
-    return Error{"EVALUATION_UNSUPPORTED", "expected a light without pattern or map, and without range unless it is punctual", {}, {}, {}};
+  if (!has_closed_form(emitter)) return Error{"EVALUATION_UNSUPPORTED", "expected a light without pattern or map", {}, {}, {}};
   Emitter white = emitter;
   const Rgb scale = std::exchange(std::visit(Scale{white}, white.shape), Rgb{1, 1, 1});
   std::shared_ptr<const Shape> shape = batch_of(white);

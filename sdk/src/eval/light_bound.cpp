@@ -177,7 +177,7 @@ std::optional<LightBound> light_bound(const Emitter& emitter) {
   if (emitter.pattern) return std::nullopt;
   std::optional<LightBound> bound = std::visit(Bounded{emitter}, emitter.shape);
   if (!bound) return bound;
-  if (emitter.window.falloff != Falloff::inverse_square && emitter.window.range_m > 0) {
+  if (is_window(emitter.window)) {
     bound->window = emitter.window;
     bound->range_m = emitter.window.range_m;
   }

@@ -39,9 +39,7 @@ struct Distance {
 
 }  // namespace
 
-bool is_modulated(const Emitter& emitter) {
-  return static_cast<bool>(emitter.pattern) || (emitter.window.falloff != Falloff::inverse_square && emitter.window.range_m > 0);
-}
+bool is_modulated(const Emitter& emitter) { return static_cast<bool>(emitter.pattern) || is_window(emitter.window); }
 
 namespace {
 
