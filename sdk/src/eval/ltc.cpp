@@ -1,0 +1,174 @@
+// Linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt 2016): the table, and lights seen through it.
+#include "etendue/ltc.h"
+
+#include "etendue/specular_methods.h"
+#include "illuminance.h"
+#include "transformed_contour.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etendue::eval {
+
+TransformedCosine transformed_cosine(const std::array<double, 5>& t, double alpha, double cosine) {
+  const double sine = std::sqrt((1 - cosine) * (1 + cosine));
+  // Rows of the rotation that takes the mirror direction (-sine, 0, cosine) to z.
+  const Vec3d x{cosine, 0, sine}, z{-sine, 0, cosine};
+  const Vec3d first = x * t[0] + z * t[1], third = (x * t[3] + z * t[4]) * alpha;
+  TransformedCosine result;
+  result.inverse.columns = {Vec3d{first.x, 0, third.x}, Vec3d{0, 1 / t[2], 0}, Vec3d{first.z, 0, third.z}};
+  return result;
+}
+
+double TransformedCosine::share_above() const { return 0.5 * (1 + normalised(inverse.normal({0, 0, 1})).z); }
+
+double TransformedCosine::density(const Vec3d& light) const {
+  const Vec3d there = inverse.vector(light);
+  const double squared = dot(there, there);
+  return std::max(there.z, 0.0) * std::abs(inverse.determinant()) / (pi * squared * squared);
+}
+
+double LtcTable::alpha_of(std::uint32_t row) const {
+  const double root = static_cast<double>(row) / (size_ - 1);
+  return std::max(root * root, lowest_alpha);
+}
+double LtcTable::cosine_of(std::uint32_t column) const { return std::max(static_cast<double>(column) / (size_ - 1), lowest_cosine); }
+
+LtcLobe LtcTable::at(double alpha, double cosine) const {
+  const double a = std::clamp(alpha, lowest_alpha, 1.0);
+  const double x = std::clamp(cosine, 0.0, 1.0) * (size_ - 1), y = std::sqrt(a) * (size_ - 1);
+  const std::uint32_t i = std::min(static_cast<std::uint32_t>(x), size_ - 2), j = std::min(static_cast<std::uint32_t>(y), size_ - 2);
+  const double u = x - i, v = y - j;
+  const Node* row = &nodes_[static_cast<std::size_t>(j) * size_ + i];
+  const auto term = [&](std::size_t k) {
+    return (row[0][k] * (1 - u) + row[1][k] * u) * (1 - v) + (row[size_][k] * (1 - u) + row[size_ + 1][k] * u) * v;
+  };
+  const auto cosine_from = [&](std::size_t k) {
+    return transformed_cosine({term(k), term(k + 1), term(k + 2), term(k + 3), term(k + 4)}, a, std::clamp(cosine, 0.0, 1.0));
+  };
+  return {cosine_from(0), cosine_from(7), term(5) + term(6), term(6)};
+}
+
+const LtcTable& ltc_table() {
+  static const LtcTable table(33, {
+#include "ltc_table.inc"
+                                  });
+  return table;
+}
+
+namespace {
+
+// The shading point turned so that the view lies in the plane x >= 0, y = 0 of its normal; any plane will do for a view along the normal.
+struct ViewFrame {
+  Vec3d x, y, z;
+  double cosine;
+  ViewFrame(const Vec3d& normal, const Vec3d& view) : z(normal), cosine(dot(normal, view)) {
+    const Vec3d across = view - normal * cosine;
+    x = dot(across, across) > 1e-30 ? normalised(across) : basis_around(normal).tangent;
+    y = cross(z, x);
+  }
+  Vec3d vector(const Vec3d& v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
+};
+
+// pi times the share of the transformed cosine that the light covers: the cosine integral of the light seen through the inverse matrix.
+struct Covered {
+  const Emitter& emitter;
+  const ShadingPoint& point;
+  const ViewFrame& frame;
+  const TransformedCosine& cosine;
+  bool real_horizon;
+
+  // From the local frame of the point, in which lights have their outlines, to that of the view and on to the cosine's.
+  Transform through(const LocalFrame& local) const {
+    Transform t;
+    for (int i = 0; i < 3; ++i) {
+      Vec3d unit;
+      unit[i] = 1;
+      t.columns[i] = cosine.inverse.vector(frame.vector(local.to_world(unit)));
+    }
+    return t;
+  }
+  double operator()() const {
+    const LocalFrame local(point.position, point.normal);
+    const Horizons horizons = horizons_of(local, point.normal, point.surface_normal);
+    const Transform linear = through(local);
+    const auto* polygon = std::get_if<PolygonEmitter>(&emitter.shape);
+    if (polygon != nullptr && !(horizons.distinct && real_horizon)) return covered(*polygon, local, linear);
+    double sum = 0;
+    each_outline(emitter, local, [&](const Contour& outline, std::size_t) {
+      const Contour seen = transformed(real_horizon ? clipped(outline, horizons) : outline, linear);
+      sum += direction_integral(clipped(seen, Vec3d{0, 0, 1})).z;
+    });
+    return std::max(sum, 0.0);
+  }
+  // The horizon of the surface is a plane through the point there too.
+  double covered(const PolygonEmitter& polygon, const LocalFrame& local, const Transform& linear) const {
+    if (polygon.vertices.size() < 3) return 0;
+    const double height = dot(point.position - polygon.vertices[0], polygon.normal);
+    if (!(height > 0 || (emitter.two_sided && height < 0))) return 0;
+    std::vector<Vec3d> vertices;
+    vertices.reserve(polygon.vertices.size());
+    for (const Vec3d& p : polygon.vertices) vertices.push_back(linear.vector(local.point(p)));
+    const Horizons horizon{normalised(linear.normal({0, 0, 1})), real_horizon};
+    return std::max((height > 0 ? -1 : 1) * projected_solid_angle(vertices, horizon), 0.0);
+  }
+};
+
+bool takes(const Emitter& emitter) {
+  if (!has_closed_form(emitter)) return false;
+  if (const auto* sun = std::get_if<DistantEmitter>(&emitter.shape)) return sun->radius_rad > 0;
+  return !std::holds_alternative<PunctualEmitter>(emitter.shape) && !std::holds_alternative<LineEmitter>(emitter.shape);
+}
+Rgb luminance_of(const Emitter& emitter) {
+  const auto* sun = std::get_if<DistantEmitter>(&emitter.shape);
+  if (sun == nullptr) return emitter.radiance;
+  const double sine = std::sin(sun->radius_rad);
+  return sun->illuminance / (pi * sine * sine);
+}
+
+enum class Form { published, one_cosine, two_cosines };
+
+std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& point, Form form) {
+  const auto* lobe = std::get_if<GgxLobe>(&point.brdf);
+  if (lobe == nullptr || lobe->masking != Masking::correlated || !takes(emitter)) return std::nullopt;
+  const ViewFrame frame(point.normal, point.view);
+  if (!(frame.cosine > 0)) return Rgb{};
+  const LtcLobe fit = ltc_table().at(lobe->alpha, frame.cosine);
+  const auto share = [&](const TransformedCosine& cosine) {
+    const double covered = Covered{emitter, point, frame, cosine, form != Form::published}() / pi;
+    return form == Form::published ? covered : std::min(covered / cosine.share_above(), 1.0);
+  };
+  // f0 + (f90 - f0) w: the first term has the whole lobe, the second the lobe times w.
+  const Rgb rise = Rgb{1, 1, 1} * lobe->f90 - lobe->f0;
+  const double whole = share(fit.whole);
+  const double grazing = form == Form::two_cosines && rise != Rgb{} ? share(fit.grazing) : whole;
+  return luminance_of(emitter) * (lobe->f0 * (fit.albedo * whole) + rise * (fit.f90_albedo * grazing));
+}
+template <Form form>
+std::optional<Rgb> luminance(const Emitter& emitter, const ShadingPoint& point) {
+  return through_table(emitter, point, form);
+}
+
+constexpr std::string_view article = "Heitz, Dupuy, Hill and Neubelt 2016, with the table of this library";
+constexpr SpecularMethod methods[] = {
+    {"ltc-unclipped", article,
+     "As published: cut at the horizon of the cosine alone, so that light from below the surface's leaks in; Fresnel's term averaged over "
+     "the lobe.",
+     luminance<Form::published>},
+    {"ltc", article, "The light is cut at the surface's horizon first, and the cosine is one for what is above it.",
+     luminance<Form::one_cosine>},
+    {"ltc-two-lobes", article,
+     "The same, and a cosine of its own for the part of the lobe that Fresnel's term adds towards grazing: two forms instead of one.",
+     luminance<Form::two_cosines>},
+};
+
+}  // namespace
+
+std::span<const SpecularMethod> specular_methods() { return methods; }
+
+const SpecularMethod* find_specular_method(std::string_view name) {
+  const auto* found = std::find_if(std::begin(methods), std::end(methods), [&](const SpecularMethod& m) { return m.name == name; });
+  return found == std::end(methods) ? nullptr : found;
+}
+
+}  // namespace etendue::eval
