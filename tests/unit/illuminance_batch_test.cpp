@@ -77,7 +77,7 @@ std::vector<float> evaluated(const Emitter& light, const Points& points) {
 // The protocol of the facts page: one light a point.
 TEST(IlluminanceBatch, IsWithinItsBoundAboveAndAcrossTheHorizon) {
   on_each_instruction_set([] {
-    for (const Kind kind : {Kind::sphere, Kind::rect, Kind::disk, Kind::capsule}) {
+    for (const Kind kind : {Kind::sphere, Kind::rect, Kind::disk, Kind::capsule, Kind::flat_tube, Kind::open_tube}) {
       for (const bool above : {true, false}) {
         Random random(5);
         Worst worst;
@@ -335,6 +335,18 @@ TEST(IlluminanceBatch, BoundariesHaveTheirAnswers) {
     EXPECT_NEAR(at(protocol::white(TubeEmitter{{0, 0, 2}, {0, 0, 5}, 0.5, Caps::round})), ball_above, 1e-6);
     EXPECT_NEAR(at(protocol::white(TubeEmitter{{0, 0, 2}, {0, 0, 2}, 0.5, Caps::round})), ball_above, 1e-6);
     EXPECT_EQ(at(protocol::white(TubeEmitter{{0, 0, 2}, {0, 0, 5}, 0, Caps::round})), 0);
+    // With flat ends or open: inside the same, also beside an end; on the axis the end alone, or nothing.
+    for (const Caps caps : {Caps::flat, Caps::none}) {
+      Emitter drum = protocol::white(TubeEmitter{{-1, 0, 0.1}, {1, 0, 0.1}, 0.5, caps});
+      EXPECT_EQ(at(drum), 0);
+      drum.two_sided = true;
+      EXPECT_NEAR(at(drum), pi, 1e-6);
+      EXPECT_EQ(at(protocol::white(TubeEmitter{{0, 0, -3}, {0, 0, 0}, 0.5, caps})), 0);
+      const Emitter ahead = protocol::white(TubeEmitter{{0, 0, 2}, {0, 0, 5}, 0.5, caps});
+      EXPECT_NEAR(at(ahead), caps == Caps::flat ? pi * 0.25 / 4.25 : 0, 1e-6);
+      const Emitter beside = protocol::white(TubeEmitter{{-0.3, 0.6, 0}, {1, 0.6, 0}, 0.5, caps});
+      EXPECT_NEAR(at(beside), protocol::lux_at(beside, {}, {0, 0, 1}), 1e-5);
+    }
     const Emitter lying = protocol::white(TubeEmitter{{1, -1, 0}, {1, 1, 0}, 0.25, Caps::round});
     EXPECT_NEAR(at(lying), protocol::lux_at(lying, {}, {0, 0, 1}), 1e-6);
     const Emitter ahead = protocol::white(TubeEmitter{{1, 0, 0}, {3, 0, 0}, 0.25, Caps::round});
@@ -350,7 +362,9 @@ TEST(IlluminanceBatch, OtherShapesOneByOneAndWhatIsNoNumberCounted) {
   points.add({std::numeric_limits<double>::quiet_NaN(), 0, 0}, {0, 0, 1});
   points.add({0, 0, 0}, {0, std::numeric_limits<double>::infinity(), 0});
   std::vector<float> sr(3);
-  for (const Emitter& light : {tube.emitter, protocol::white(SphereEmitter{{0, 0, 3}, 1})}) {
+  Emitter ending = tube.emitter;
+  ending.window = {Falloff::frostbite, 10};
+  for (const Emitter& light : {ending, tube.emitter, protocol::white(SphereEmitter{{0, 0, 3}, 1})}) {
     const BatchOutcome done = LightBatch::of(light)->projected_solid_angles(points.batch(), sr, -1);
     ASSERT_TRUE(done.ok());
     EXPECT_EQ(*done, 2u);

@@ -27,12 +27,12 @@ class LightBatch {
   //   area lights and constant environments: sr, the integral of max(n.l, 0) over the directions of the light. scale(): cd/m2;
   //   punctual lights and lines: 1/m2, the illuminance for an intensity of 1 cd, window included. scale(): cd;
   //   true directions and sun disks: no unit, for 1 lx on a plane facing the light. scale(): lx.
-  // Spheres, disks, polygons (convex or not), meshes and tubes with round caps run in vectors with
+  // Spheres, disks, polygons (convex or not), meshes and tubes run in vectors with
   //     |error| <= 1e-5 value + 2e-6 min(1, solid angle of the light),
   // point lights, spots, frusta, lines and distant lights with
   //     |error| <= 1e-5 value + 2e-6 (what the axial intensity gives a facing surface from the closest point, no window),
   // of doubles where those of floats would not hold it. The solid angle of a mesh is that of all its triangles that face the point. All
-  // else is evaluated one by one: tubes with flat ends or open ones, profiles, and area lights and lines with a window. What is too large
+  // else is evaluated one by one: profiles, and area lights and lines with a window. What is too large
   // for a float becomes the largest. Points with a number that is not finite become `where_none`, and are counted. Errors:
   // BATCH_SIZES_DIFFER.
   BatchOutcome projected_solid_angles(const PointBatch& points, std::span<float> values, float where_none) const;
