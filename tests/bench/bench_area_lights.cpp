@@ -30,7 +30,14 @@ EmitterShape shape_of(Kind kind) {
     case Kind::disk:
       return DiskEmitter{{}, {0, 0, 1}, {1, 0, 0}, 1};
     case Kind::capsule:
-      return TubeEmitter{{-0.5, 0, 0}, {0.5, 0, 0}, 0.07, Caps::round};
+    case Kind::flat_tube:
+    case Kind::open_tube:
+      return TubeEmitter{{-0.5, 0, 0},
+                         {0.5, 0, 0},
+                         0.07,
+                         kind == Kind::capsule     ? Caps::round
+                         : kind == Kind::flat_tube ? Caps::flat
+                                                   : Caps::none};
     default:
       return protocol::rectangle({}, {1, 0, 0}, {0, 1, 0}, 1, 0.7);
   }
@@ -52,7 +59,20 @@ MeshEmitter dome() {
   return mesh;
 }
 const char* name_of(Kind kind) {
-  return kind == Kind::sphere ? "sphere" : kind == Kind::disk ? "disk" : kind == Kind::capsule ? "capsule" : "rectangle";
+  switch (kind) {
+    case Kind::sphere:
+      return "sphere";
+    case Kind::disk:
+      return "disk";
+    case Kind::capsule:
+      return "capsule";
+    case Kind::flat_tube:
+      return "tube with flat ends";
+    case Kind::open_tube:
+      return "open tube";
+    default:
+      return "rectangle";
+  }
 }
 
 // One light, points all around at the protocol's distances and with its normals: those above its horizon or those that it crosses.
@@ -77,7 +97,7 @@ struct Case {
       const bool round = kind == Kind::sphere || kind == Kind::disk;
       Vec3d p = random.direction() * random.uniform(kind == Kind::sphere ? 1.05 : 0.5, round ? 6 : 3);
       if (kind == Kind::rect || kind == Kind::disk) p.z = std::max(std::abs(p.z), kind == Kind::disk ? 0.04 : 0.02);
-      if (kind == Kind::capsule && std::hypot(p.y, p.z) < 0.0735) continue;
+      if (std::holds_alternative<TubeEmitter>(light.shape) && std::hypot(p.y, p.z) < 0.0735) continue;
       const Vec3d n = random.direction();
       const double low = protocol::lowest(light.shape, p, n), high = -protocol::lowest(light.shape, p, -n);
       if (high <= 0 || (low < 0) != (mixed && px.size() % 2 == 0)) continue;
@@ -131,7 +151,7 @@ void add_rows(bench::Bench& table, const std::string& name, Case& c) {
 int main(int argc, char** argv) {
   bench::Bench table;
   std::vector<std::unique_ptr<Case>> cases;
-  for (const Kind kind : {Kind::rect, Kind::sphere, Kind::disk, Kind::capsule}) {
+  for (const Kind kind : {Kind::rect, Kind::sphere, Kind::disk, Kind::capsule, Kind::flat_tube, Kind::open_tube}) {
     for (const bool mixed : {false, true}) {
       cases.push_back(std::make_unique<Case>(kind, mixed));
       add_rows(table, fmt::format("{}, {}", name_of(kind), mixed ? "half of them cut by the horizon" : "above the horizon"), *cases.back());
