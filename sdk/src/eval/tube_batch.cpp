@@ -326,11 +326,11 @@ HWY_INLINE V turning(D d, const TubeView<V>& t, V ratio) {
 }
 
 // Between the places where the horizon passes a rim, and where n_u = 0: there the horizon runs along the tube, and a strip's lit part
-// changes within an angle of n_x. Nodes are closer at both ends of each piece: tau = middle + half (3 s - s^3) / 2.
+// changes within an angle of n_x. 24 nodes, closer together at both ends of each piece: tau = middle + half (3 s - s^3) / 2.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 HWY_INLINE V cut_side(D d, const SideRow<D>& row, M cut) {
   const TubeView<V>& t = row.t;
-  const V zero = hn::Zero(d), n_x = hn::Max(t.n_x, number(d, 1e-150));
+  const V zero = hn::Zero(d), n_x = hn::Max(t.n_x, number(d, in_floats<D> ? 1e-18 : 1e-150));
   const std::array<V, 2> at_a = rim_crossings(d, t, t.a), at_b = rim_crossings(d, t, t.b);
   std::array<V, 7> ends{number(d, -1), at_a[0], at_a[1], at_b[0], at_b[1], turning(d, t, row.ratio), number(d, 1)};
   for (std::size_t last = 5; last > 1; --last) {
@@ -389,9 +389,7 @@ HWY_INLINE V over_side(D d, const PlacedTube& light, const Point<V>& point, M& d
       value = hn::MulAdd(number(d, rule[i].weight), part, value);
     }
   }
-  if constexpr (!in_floats<D>) {
-    if (!hn::AllFalse(d, cut)) value = hn::IfThenElse(cut, cut_side(d, row, cut), value);
-  }
+  if (!hn::AllFalse(d, cut)) value = hn::IfThenElse(cut, cut_side(d, row, cut), value);
 
   const M within = hn::And(hn::Le(across2, r2), hn::And(hn::Le(t.a, zero), hn::Ge(t.b, zero)));
   const V farther2 = hn::Max(hn::Mul(t.a, t.a), hn::Mul(t.b, t.b)), size = hn::MulAdd(number(d, 2), radius, length);
@@ -404,9 +402,7 @@ HWY_INLINE V over_side(D d, const PlacedTube& light, const Point<V>& point, M& d
   const M end_on = hn::And(lit, hn::Lt(off2, share(farther2, single ? 2e-2 : 1e-14)));
   const M too_far = hn::Gt(hn::Add(across2, farther2), number(d, single ? 1e12 : 1e30));
   const M above = hn::Gt(highest, hn::Neg(share(radius, 1e-5)));
-  // Cut by the horizon in doubles alone.
-  const M unsure = single ? cut : hn::FirstN(d, 0);
-  doubtful = hn::Or(at_end, hn::And(above, hn::Or(hn::Or(at_surface, end_on), hn::Or(too_far, unsure))));
+  doubtful = hn::Or(at_end, hn::And(above, hn::Or(hn::Or(at_surface, end_on), too_far)));
   value = hn::IfThenElseZero(lit, hn::Max(value, zero));
   return hn::IfThenElse(within, light.white.two_sided ? number(d, pi) : zero, value);
 }
