@@ -3,6 +3,7 @@
 
 #include "etendue/specular_methods.h"
 #include "illuminance.h"
+#include "specular_moments.h"
 #include "transformed_contour.h"
 
 #include <algorithm>
@@ -149,6 +150,12 @@ std::optional<Rgb> luminance(const Emitter& emitter, const ShadingPoint& point) 
   return through_table(emitter, point, form);
 }
 
+std::optional<Rgb> moments(const Emitter& emitter, const ShadingPoint& point) {
+  const auto* lobe = std::get_if<GgxLobe>(&point.brdf);
+  if (lobe == nullptr || lobe->masking != Masking::correlated || !takes(emitter)) return std::nullopt;
+  return luminance_of(emitter) * by_moments(emitter, point, *lobe);
+}
+
 constexpr std::string_view article = "Heitz, Dupuy, Hill and Neubelt 2016, with the table of this library";
 constexpr SpecularMethod methods[] = {
     {"ltc-unclipped", article,
@@ -160,6 +167,8 @@ constexpr SpecularMethod methods[] = {
     {"ltc-two-lobes", article,
      "The same, and a cosine of its own for the part of the lobe that Fresnel's term adds towards grazing: two forms instead of one.",
      luminance<Form::two_cosines>},
+    {"moments", "Etendue",
+     "Exact but for the slow factor of the lobe, which is taken at four places, and for outlines in pieces; no table.", moments},
 };
 
 }  // namespace
