@@ -201,12 +201,13 @@ std::optional<LtcTable> fit_ltc(std::uint32_t size, const std::function<bool(dou
   return LtcTable(size, std::move(nodes));
 }
 
-double misplaced_share(const TransformedCosine& cosine, double alpha, double view_cosine) {
+// Both sum to 1: half of |p - q| is what p has more, which the lobe's own directions see wherever the cosine is.
+double misplaced_share(const TransformedCosine& whole, double alpha, double view_cosine) {
   const std::vector<Direction> all = directions(alpha, view_cosine, 2);
-  const double whole = albedo(all), share = cosine.share_above();
-  double sum = 0;
-  for (const Direction& d : all) sum += d.solid_angle * std::abs(d.lobe / whole - cosine.density(d.light) / share);
-  return 0.5 * sum;
+  const double sum = albedo(all), share = whole.share_above();
+  double more = 0;
+  for (const Direction& d : all) more += d.solid_angle * std::max(d.lobe / sum - whole.density(d.light) / share, 0.0);
+  return more;
 }
 
 }  // namespace etendue::eval
