@@ -66,6 +66,11 @@ void add_conductor(Writer& writer, pugi::xml_node bsdf, const Material& material
     writer.losses.add(
         name_for_losses(material) + ": height-correlated masking",
         "Smith's separable form: darker at grazing angles, up to a factor of 2 at alpha 1, under 1 % at alpha .1 and 60 degrees");
+  } else if (model.masking != Masking::separable) {
+    writer.losses.add(name_for_losses(material) + ": masking in Schlick's form",
+                      model.masking == Masking::schlick_image
+                          ? "Smith's separable form: brighter by up to 25 % a side, most where the cosine is 3/4 alpha"
+                          : "Smith's separable form: brighter at grazing angles, the more the smaller alpha is");
   }
   if (material.base_colour_texture || material.metal_rough_texture) {
     writer.losses.add(name_for_losses(material) + ": textures of a conductor", "left out");

@@ -20,6 +20,19 @@ void write_flat(JsonWriter& json, std::string_view key, const std::vector<Vector
   json.end_array();
 }
 
+const char* name_of(Masking masking) {
+  switch (masking) {
+    case Masking::correlated:
+      return "correlated";
+    case Masking::separable:
+      return "separable";
+    case Masking::schlick_direct:
+      return "schlick-direct";
+    default:
+      return "schlick-image";
+  }
+}
+
 void write_mesh(JsonWriter& json, const Mesh& mesh) {
   const auto three = [&json](const Vec3f& v) {
     for (int i = 0; i < 3; ++i) json.value(v[i]);
@@ -76,7 +89,7 @@ struct WriteModel {
     colour("eta", m.eta);
     colour("k", m.k);
     json.member("alpha", m.alpha);
-    if (m.masking != Conductor{}.masking) json.member("masking", m.masking == Masking::correlated ? "correlated" : "separable");
+    if (m.masking != Conductor{}.masking) json.member("masking", name_of(m.masking));
   }
   void operator()(const MetalRough& m) const {
     json.member("model", "metal_rough");

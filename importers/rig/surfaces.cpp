@@ -53,7 +53,12 @@ SurfaceModel read_conductor(Reader& reader, Fields& fields) {
     m.k = read_vec3(k, 0, unlimited, d).value_or(m.k);
   }
   m.alpha = alpha;
-  m.masking = read_choice<Masking>(fields.find("masking"), {{"separable", Masking::separable}, {"correlated", Masking::correlated}}, d)
+  m.masking = read_choice<Masking>(fields.find("masking"),
+                                   {{"separable", Masking::separable},
+                                    {"correlated", Masking::correlated},
+                                    {"schlick-direct", Masking::schlick_direct},
+                                    {"schlick-image", Masking::schlick_image}},
+                                   d)
                   .value_or(m.masking);
   return m;
 }

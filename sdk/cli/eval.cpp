@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -28,11 +29,12 @@ namespace {
 using eval::Emitter;
 
 struct Options {
-  std::string asset, points, brdf = "lambert", base_colour = "0.5,0.5,0.5", method = "exact", masking = "correlated", lights, mute;
+  std::string asset, points, brdf = "lambert", base_colour = "0.5,0.5,0.5", method = "exact", masking = "correlated", fresnel = "schlick",
+                             eta, k, tangent, lights, mute;
   ImportOptions import;
-  double alpha = -1, roughness = -1, f0 = 0.04, f90 = 1, tolerance = 1e-4;
+  double alpha = -1, alpha_across = -1, roughness = -1, f0 = 0.04, f90 = 1, tolerance = 1e-4;
   std::optional<std::uint64_t> samples, seed;
-  bool sum = false;
+  bool sum = false, micro_occlusion = false;
 };
 
 // Of one light at one point: lux or cd/m2, an absolute bound of the error in the worst channel, and how it was found.
@@ -49,7 +51,27 @@ Error usage(std::string text, std::string hint = {}) { return {"USAGE", std::mov
 // Rounding of a closed form in double: 1e-12 for a luminance of 1 (tests/unit/illuminance_property_test.cpp), and of the value.
 double rounding_of(const Emitter& emitter, const Rgb& value) { return 1e-12 * (largest(value) + largest(emitter.radiance)); }
 
-constexpr std::string_view brdf_names = "lambert, disney, frostbite, gltf-diffuse, oren-nayar, gotanda, ggx, standard or principled";
+constexpr std::string_view brdf_names =
+    "lambert, disney, frostbite, gltf-diffuse, oren-nayar, gotanda, ggx, beckmann, blinn-phong, phong, standard or principled";
+
+const std::map<std::string, eval::Distribution> distributions{{"ggx", eval::Distribution::ggx},
+                                                              {"beckmann", eval::Distribution::beckmann},
+                                                              {"blinn-phong", eval::Distribution::blinn_phong},
+                                                              {"phong", eval::Distribution::phong}};
+const std::map<std::string, Masking> maskings{{"correlated", Masking::correlated},
+                                              {"separable", Masking::separable},
+                                              {"schlick-direct", Masking::schlick_direct},
+                                              {"schlick-image", Masking::schlick_image}};
+const std::map<std::string, eval::Fresnel> fresnels{{"schlick", eval::Fresnel::schlick},
+                                                    {"schlick-gaussian", eval::Fresnel::schlick_gaussian},
+                                                    {"dielectric", eval::Fresnel::dielectric},
+                                                    {"conductor", eval::Fresnel::conductor}};
+template <class Value>
+std::vector<std::string> names_of(const std::map<std::string, Value>& values) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : values) names.push_back(name);
+  return names;
+}
 
 // Reflectance at normal incidence is ((n - 1) / (n + 1))^2.
 double ior_of(double f0) {
@@ -57,17 +79,58 @@ double ior_of(double f0) {
   return (1 + root) / (1 - root);
 }
 
-std::optional<eval::Brdf> brdf_of(const Options& o, const Rgb& base, double roughness, Masking masking) {
-  if (o.brdf == "lambert") return Lambert{{1, 1, 1}};
-  if (o.brdf == "disney") return eval::DisneyDiffuse{base, roughness};
-  if (o.brdf == "frostbite") return eval::FrostbiteDiffuse{base, roughness};
-  if (o.brdf == "gltf-diffuse") return eval::GltfDiffuse{base, ior_of(o.f0)};
-  if (o.brdf == "oren-nayar") return eval::OrenNayar{base, eval::oren_nayar_sigma_rad(roughness * roughness)};
-  if (o.brdf == "gotanda") return eval::GotandaDiffuse{base, roughness, o.f0};
-  if (o.brdf == "ggx") return eval::GgxLobe{roughness * roughness, {o.f0, o.f0, o.f0}, o.f90, masking};
-  if (o.brdf == "standard") return Standard{base, 0, roughness, std::sqrt(o.f0 / 0.16)};
-  if (o.brdf == "principled") return Principled{base, 0, roughness, o.f0 / 0.08};
-  return std::nullopt;
+Result<Rgb> colour_of(const char* option, const std::string& text) {
+  const std::optional<Rgb> c = parse_rgb(text);
+  if (!c) return usage(fmt::format("{}: expected r,g,b, found '{}'", option, text));
+  return *c;
+}
+
+Result<eval::Brdf> specular_of(const Options& o, double alpha) {
+  eval::SpecularLobe lobe;
+  lobe.distribution = distributions.at(o.brdf);
+  lobe.alpha_x = alpha;
+  lobe.alpha_y = o.alpha_across >= 0 ? o.alpha_across : alpha;
+  lobe.masking = maskings.at(o.masking);
+  lobe.fresnel = fresnels.at(o.fresnel);
+  lobe.f0 = {o.f0, o.f0, o.f0};
+  lobe.f90 = o.micro_occlusion ? eval::micro_occlusion_f90(lobe.f0) : o.f90;
+  const bool exact = lobe.fresnel == eval::Fresnel::dielectric || lobe.fresnel == eval::Fresnel::conductor;
+  if (!exact && !(o.eta.empty() && o.k.empty())) return usage("--eta, --k: expected --fresnel dielectric or conductor with them");
+  if (lobe.alpha_x != lobe.alpha_y && (o.brdf == "blinn-phong" || o.brdf == "phong"))
+    return usage(fmt::format("--alpha-across: expected --brdf ggx or beckmann, found {}, which is round", o.brdf));
+  lobe.eta = Rgb{1, 1, 1} * ior_of(o.f0);
+  if (!o.eta.empty()) {
+    const Result<Rgb> eta = colour_of("--eta", o.eta);
+    if (!eta) return eta.error();
+    lobe.eta = *eta;
+  }
+  if (lobe.fresnel == eval::Fresnel::conductor) {
+    if (o.eta.empty() || o.k.empty()) return usage("--fresnel conductor: expected --eta r,g,b and --k r,g,b with it");
+    const Result<Rgb> k = colour_of("--k", o.k);
+    if (!k) return k.error();
+    lobe.k = *k;
+  } else if (!o.k.empty()) {
+    return usage("--k: expected --fresnel conductor with it");
+  }
+  if (!(std::min({lobe.eta.x, lobe.eta.y, lobe.eta.z}) > 0) || !(std::min({lobe.k.x, lobe.k.y, lobe.k.z}) >= 0))
+    return usage("--eta, --k: expected indices of refraction above 0 and extinctions of 0 or more");
+  return eval::Brdf{lobe};
+}
+
+Result<eval::Brdf> brdf_of(const Options& o, const Rgb& base, double roughness) {
+  if (distributions.contains(o.brdf)) return specular_of(o, o.alpha >= 0 ? o.alpha : roughness * roughness);
+  if (o.alpha_across >= 0 || !o.tangent.empty() || o.fresnel != "schlick" || !o.eta.empty() || !o.k.empty() || o.micro_occlusion)
+    return usage(
+        fmt::format("--alpha-across, --tangent, --fresnel, --eta, --k, --micro-occlusion: expected a specular --brdf, found {}", o.brdf));
+  if (o.brdf == "lambert") return eval::Brdf{Lambert{{1, 1, 1}}};
+  if (o.brdf == "disney") return eval::Brdf{eval::DisneyDiffuse{base, roughness}};
+  if (o.brdf == "frostbite") return eval::Brdf{eval::FrostbiteDiffuse{base, roughness}};
+  if (o.brdf == "gltf-diffuse") return eval::Brdf{eval::GltfDiffuse{base, ior_of(o.f0)}};
+  if (o.brdf == "oren-nayar") return eval::Brdf{eval::OrenNayar{base, eval::oren_nayar_sigma_rad(roughness * roughness)}};
+  if (o.brdf == "gotanda") return eval::Brdf{eval::GotandaDiffuse{base, roughness, o.f0}};
+  if (o.brdf == "standard") return eval::Brdf{Standard{base, 0, roughness, std::sqrt(o.f0 / 0.16)}};
+  if (o.brdf == "principled") return eval::Brdf{Principled{base, 0, roughness, o.f0 / 0.08}};
+  return usage(fmt::format("--brdf: expected {}, found '{}'", brdf_names, o.brdf));
 }
 
 // How the lights are evaluated, checked before the first point is read.
@@ -99,6 +162,7 @@ class Evaluator {
   std::optional<eval::Sampling> sampling_;
   bool closed_ = true;  // closed forms where there are any
   eval::Brdf brdf_;
+  Vec3d tangent_;
   double tolerance_ = 1e-4;
 };
 
@@ -108,9 +172,14 @@ Result<Evaluator> Evaluator::of(const Options& o) {
   const double roughness = o.roughness >= 0 ? o.roughness : o.alpha >= 0 ? std::sqrt(o.alpha) : 0.5;
   const std::optional<Rgb> base = parse_rgb(o.base_colour);
   if (!base) return usage(fmt::format("--base-colour: expected r,g,b, found '{}'", o.base_colour));
-  const std::optional<eval::Brdf> brdf = brdf_of(o, *base, roughness, o.masking == "separable" ? Masking::separable : Masking::correlated);
-  if (!brdf) return usage(fmt::format("--brdf: expected {}, found '{}'", brdf_names, o.brdf));
+  const Result<eval::Brdf> brdf = brdf_of(o, *base, roughness);
+  if (!brdf) return brdf.error();
   e.brdf_ = *brdf;
+  if (!o.tangent.empty()) {
+    const std::optional<Vec3d> tangent = parse_vector(o.tangent);
+    if (!tangent || !(length(*tangent) > 0)) return usage(fmt::format("--tangent: expected x,y,z, found '{}'", o.tangent));
+    e.tangent_ = *tangent;
+  }
   e.tolerance_ = o.tolerance;
   e.lambert_ = o.brdf == "lambert";
   if (o.method == "monte-carlo") {
@@ -172,7 +241,7 @@ Status Evaluator::accepts(const Emitter& emitter, const std::string& name) const
 }
 
 eval::ShadingPoint Evaluator::shading_point(const PointRow& p) const {
-  return {p.position, p.normal, p.normal, lambert_ ? p.normal : p.view, brdf_};
+  return {p.position, p.normal, p.normal, lambert_ ? p.normal : p.view, brdf_, tangent_};
 }
 
 Answer Evaluator::by_reference(const Emitter& emitter, const PointRow& p) const {
@@ -419,10 +488,22 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--alpha", options->alpha, "Roughness squared")->check(CLI::Range(0.0, 1.0));
   verb->add_option("--roughness", options->roughness, "Perceptually linear (default 0.5)")->check(CLI::Range(0.0, 1.0));
   verb->add_option("--f0", options->f0, "Reflectance at normal incidence")->capture_default_str()->check(CLI::Range(0.0, 1.0));
-  verb->add_option("--f90", options->f90, "Of ggx: reflectance at grazing incidence")->capture_default_str()->check(CLI::Range(0.0, 1.0));
-  verb->add_option("--masking", options->masking, "Of ggx: correlated or separable")
+  verb->add_option("--f90", options->f90, "Of a lobe: reflectance at grazing incidence")
       ->capture_default_str()
-      ->check(CLI::IsMember({"correlated", "separable"}));
+      ->check(CLI::Range(0.0, 1.0));
+  verb->add_flag("--micro-occlusion", options->micro_occlusion, "Of a lobe: f90 = min(50 f0, 1)");
+  verb->add_option("--masking", options->masking,
+                   "Of a lobe: correlated, separable (both Smith's), schlick-direct or schlick-image (Karis')")
+      ->capture_default_str()
+      ->check(CLI::IsMember(names_of(maskings)));
+  verb->add_option("--fresnel", options->fresnel, "Of a lobe: schlick, schlick-gaussian (Karis'), dielectric or conductor (exact)")
+      ->capture_default_str()
+      ->check(CLI::IsMember(names_of(fresnels)));
+  verb->add_option("--eta", options->eta, "Index of refraction r,g,b; of a dielectric that of f0 unless given");
+  verb->add_option("--k", options->k, "Extinction r,g,b of a conductor");
+  verb->add_option("--alpha-across", options->alpha_across, "Of ggx and beckmann: alpha across the tangent, another than along it")
+      ->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--tangent", options->tangent, "x,y,z: along it alpha is --alpha; made perpendicular to each normal");
   verb->add_option("--base-colour", options->base_colour, "r,g,b, linear")->capture_default_str();
   verb->add_option("--method", options->method,
                    "exact, fast (floats; of other diffuse BRDFs a few dozen evaluations, whose bound is an estimate that 99 of 100 keep), "
@@ -447,6 +528,8 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
       "  echo 0,0,0,0,1,0 | etendue eval kitchen.rig.json --points - --sum\n"
       "  etendue eval street.rig.json --points road.csv --method fast --sum --tolerance 1e-2 --stats\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf ggx --alpha 0.1 --tolerance 1e-3\n"
+      "  etendue eval studio.rig.json --points floor.csv --brdf beckmann --alpha 0.05 --alpha-across 0.3 --tangent 1,0,0\n"
+      "  etendue eval studio.rig.json --points floor.csv --brdf ggx --alpha 0.2 --fresnel conductor --eta 0.2,0.92,1.1 --k 3.9,2.4,2.1\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf oren-nayar --roughness 0.8 --method fast\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf standard --method monte-carlo --samples 1000000 --seed 7\n"
       "  etendue eval studio.rig.json --points floor.csv --lights key --method frostbite-12");

@@ -53,11 +53,16 @@ Result<PointRow> parse_row(std::string_view line, bool with_view, const Where& w
 
 }  // namespace
 
-std::optional<Rgb> parse_rgb(std::string_view text) {
+std::optional<Vec3d> parse_vector(std::string_view text) {
   std::array<double, 3> c{};
   const std::optional<std::size_t> count = take_numbers(text, c);
-  if (count != 3 || c[0] < 0 || c[1] < 0 || c[2] < 0) return std::nullopt;
-  return Rgb{c[0], c[1], c[2]};
+  if (count != 3) return std::nullopt;
+  return Vec3d{c[0], c[1], c[2]};
+}
+
+std::optional<Rgb> parse_rgb(std::string_view text) {
+  const std::optional<Rgb> c = parse_vector(text);
+  return c && c->x >= 0 && c->y >= 0 && c->z >= 0 ? c : std::nullopt;
 }
 
 Status each_block(const std::string& file, bool with_view, const std::function<Status(std::span<const PointRow>)>& take) {

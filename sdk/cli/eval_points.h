@@ -20,7 +20,9 @@ struct PointRow {
 // stops at the first Status that is none. `file`: - is stdin. Errors: POINT_INVALID with file and line, LINE_TOO_LONG, FILE_UNREADABLE.
 Status each_block(const std::string& file, bool with_view, const std::function<Status(std::span<const PointRow>)>& take);
 
-// "r,g,b"
+// "x,y,z"; finite.
+std::optional<Vec3d> parse_vector(std::string_view text);
+// "r,g,b", none below 0.
 std::optional<Rgb> parse_rgb(std::string_view text);
 
 }  // namespace etendue::cli

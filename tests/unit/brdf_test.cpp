@@ -90,7 +90,14 @@ std::vector<Brdf> every_model(double alpha) {
           TwoColour{{0.5, 0.3, 0.1}, {0.1, 0.3, 0.5}, roughness},
           GltfDiffuse{{0.8, 0.5, 0.2}, 1.5},
           OrenNayar{{0.8, 0.5, 0.2}, oren_nayar_sigma_rad(alpha)},
-          GotandaDiffuse{{0.8, 0.5, 0.2}, roughness, 0.04}};
+          GotandaDiffuse{{0.8, 0.5, 0.2}, roughness, 0.04},
+          SpecularLobe{Distribution::ggx, alpha, 0.5 * alpha, Masking::correlated, Fresnel::dielectric},
+          SpecularLobe{Distribution::beckmann, alpha, alpha, Masking::correlated, Fresnel::schlick_gaussian, {0.04, 0.5, 1}, 0.8},
+          SpecularLobe{Distribution::beckmann, 0.7 * alpha, alpha, Masking::separable, Fresnel::conductor},
+          SpecularLobe{Distribution::blinn_phong, alpha, alpha, Masking::correlated},
+          SpecularLobe{Distribution::blinn_phong, alpha, alpha, Masking::schlick_image},
+          SpecularLobe{Distribution::ggx, alpha, alpha, Masking::schlick_direct},
+          SpecularLobe{Distribution::phong, alpha, alpha}};
 }
 
 // f(v, l) = f(l, v), so BRDF x cosine over the cosine is symmetric: of all models but Gotanda's fit.

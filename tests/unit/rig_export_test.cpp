@@ -276,7 +276,10 @@ class Generator {
         m.model = Standard{vec(0, 1), between(0, 1), between(0, 1), between(0, 1)};
         break;
       case 3:
-        m.model = Conductor{vec(0.1, 5), vec(0, 9), between(0.001, 1), maybe() ? Masking::separable : Masking::correlated};
+        m.model = Conductor{vec(0.1, 5), vec(0, 9), between(0.001, 1),
+                            maybe()   ? Masking::separable
+                            : maybe() ? Masking::schlick_direct
+                                      : Masking::schlick_image};
         break;
       case 4:
         m.model = SpecularGlossiness{vec(0, 1), vec(0, 1), between(0, 1)};

@@ -57,11 +57,41 @@ struct GgxLobe {
   double f90 = 1;
   Masking masking = Masking::correlated;
 };
+// How the normals of facets are spread (sdk/docs/brdf.md). Phong's lobe is none of facets: a power of the cosine about the mirror
+// direction, normalised by (n + 2) / (2 pi), and so reciprocal and at most 1 in sum (Lewis 1993; Lafortune and Willems 1994).
+enum class Distribution { ggx, beckmann, blinn_phong, phong };
+// Schlick's from f0 to f90, as a power or as a spherical Gaussian (Karis 2013, eq 5), or exactly from the index of refraction.
+enum class Fresnel { schlick, schlick_gaussian, dielectric, conductor };
+// What a lobe that mirrors all (F = 1) gives back of a white sky, by the view: made once (directional_albedo.h).
+class AlbedoCurve;
+// A specular lobe alone, of any of them. What GgxLobe has is here to the same digits.
+struct SpecularLobe {
+  Distribution distribution = Distribution::ggx;
+  double alpha_x = 0.25, alpha_y = 0.25;  // along ShadingPoint::tangent and across; Blinn-Phong and Phong are round: sqrt(x y)
+  Masking masking = Masking::correlated;  // Phong has none
+  Fresnel fresnel = Fresnel::schlick;
+  Rgb f0{0.04, 0.04, 0.04};  // of Schlick's
+  double f90 = 1;
+  Rgb eta{1.5, 1.5, 1.5}, k{0, 0, 0};  // index of refraction of the others, over that outside; k of the conductor alone
+  // Light that facets pass on to each other is added: what this curve, of the same facets and masking, lacks of 1.
+  std::shared_ptr<const AlbedoCurve> compensation = nullptr;
+};
+// Reflectance of its facets at the angle of incidence with that cosine.
+Rgb fresnel_reflectance(const SpecularLobe& lobe, double cosine);
+// Micro-occlusion: f90 = min(50 f0, 1), because no material's f0 is below .02 (Schueler 2009; Lagarde and de Rousiers 2014, listing 27).
+double micro_occlusion_f90(const Rgb& f0);
+// Exponents of Blinn-Phong's (n.h)^n and Phong's (r.l)^n whose lobe is as wide as that of a Beckmann surface of that alpha (which is at
+// most 1): n = 2 / alpha^2 - 2 (Walter et al. 2007, after eq 30), and a quarter of it, because r moves by twice the angle of h.
+double blinn_phong_exponent(double alpha);
+double alpha_of_blinn_phong(double exponent);
+double phong_exponent(double alpha);
+double alpha_of_phong(double exponent);
+
 // A BRDF with every parameter resolved at one point.
 using Brdf = std::variant<Lambert, Principled, Standard, Conductor, MetalRough, DisneyDiffuse, FrostbiteDiffuse, GgxLobe, TwoColour,
-                          GltfDiffuse, OrenNayar, GotandaDiffuse>;
+                          GltfDiffuse, OrenNayar, GotandaDiffuse, SpecularLobe>;
 
-// BRDF times cosine of `light`, 1/sr. Unit vectors in the shading frame (z is the normal). 0 if either is below the horizon.
+// BRDF times cosine of `light`, 1/sr. Unit vectors in the shading frame (z is the normal, x the tangent). 0 if either is below the horizon.
 Rgb brdf_cos(const Brdf& brdf, const Vec3d& view, const Vec3d& light);
 
 // Density (1/sr) with which sample_brdf picks `light`, and the choice itself from u in [0,1)^2. pdf 0: no direction.
@@ -80,7 +110,10 @@ struct ShadingPoint {
   Vec3d surface_normal;  // interpolated only: light below its horizon does not count either
   Vec3d view;            // unit, from the point to the eye
   Brdf brdf;
+  Vec3d tangent = {};  // x of anisotropic lobes, made perpendicular to `normal`; none: any direction across it
 };
+// The axes that directions of a BRDF are told in.
+Basis shading_basis(const ShadingPoint& point);
 
 // ---- Emitters ----
 

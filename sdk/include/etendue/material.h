@@ -33,8 +33,10 @@ struct Standard {
   double reflectance = 0.5;  // f0 = .16 reflectance^2
 };
 
-// Smith's shadowing and masking of GGX: height-correlated (the physically consistent one) or the product of both (Mitsuba's).
-enum class Masking { correlated, separable };
+// Shadowing and masking of facets: Smith's, height-correlated (the physically consistent one) or the product of both (Mitsuba's), or the
+// product in Schlick's form x / (x (1 - k) + k) with k = (roughness + 1)^2 / 8 for lights that have a place, alpha / 2 for pictures all
+// around (Karis 2013, eq 4).
+enum class Masking { correlated, separable, schlick_direct, schlick_image };
 
 // Metal: GGX and the exact Fresnel reflectance of eta + i k per channel (Mitsuba's roughconductor).
 struct Conductor {

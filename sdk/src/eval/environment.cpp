@@ -2,6 +2,7 @@
 
 #include "etendue/colour.h"
 #include "etendue/units.h"
+#include "local.h"
 #include "shifted_points.h"
 
 #include <algorithm>
@@ -121,9 +122,8 @@ Estimate environment_reference(const Emitter& emitter, const EnvironmentEmitter&
                                const Tolerance& tolerance) {
   constexpr int shifts = 16;
   constexpr std::uint64_t most = 1u << 17;  // points of one shift
-  const Basis basis = basis_around(point.normal);
-  const auto local = [&](const Vec3d& d) { return Vec3d{dot(basis.tangent, d), dot(basis.bitangent, d), dot(basis.normal, d)}; };
-  const Vec3d view = local(point.view);
+  const LocalFrame frame(point);
+  const Vec3d view = frame.vector(point.view);
   const EnvironmentMap& map = *environment.map;
   Transform to_world;  // the inverse of a rotation is its transpose
   for (int i = 0; i < 3; ++i) {
@@ -145,10 +145,10 @@ Estimate environment_reference(const Emitter& emitter, const EnvironmentEmitter&
         const Vec2d u = points(k, i);
         const Vec3d in_map = map.sample(u);
         const Vec3d world = to_world.vector(in_map);
-        sums[k] += weighted(in_map, world, local(world));
+        sums[k] += weighted(in_map, world, frame.vector(world));
         const DirectionSample drawn = sample_brdf(point.brdf, view, u);
         if (drawn.pdf > 0) {
-          const Vec3d out = basis.tangent * drawn.direction.x + basis.bitangent * drawn.direction.y + basis.normal * drawn.direction.z;
+          const Vec3d out = frame.to_world(drawn.direction);
           sums[k] += weighted(environment.to_local.vector(out), out, drawn.direction);
         }
       }

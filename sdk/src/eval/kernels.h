@@ -3,6 +3,7 @@
 #pragma once
 
 #include "etendue/eval.h"
+#include "facets.h"
 #include "fresnel.h"
 #include "microfacet.h"
 
@@ -15,6 +16,7 @@ struct LobeFacts {
   double alpha = 0;           // of the specular lobe; 0: there is none
   double specular_share = 0;  // probability with which sampling takes the specular lobe
   bool folded = false;        // bends where the light crosses the plane of the normal across the view
+  bool round_ggx = true;      // the lobe, if there is one: its poles are known
 };
 
 struct LambertKernel {
@@ -112,6 +114,71 @@ struct GgxKernel {
   double f90, alpha;
 };
 
+// D G F / (4 n.v n.l) n.l of the facets of facets.h, masked by what the view and the light see of them, or Phong's lobe.
+struct SpecularKernel {
+  SpecularKernel(const SpecularLobe& m, const Vec3d& view)
+      : v(view),
+        lobe(m),
+        alpha(std::sqrt(std::max(m.alpha_x, min_alpha) * std::max(m.alpha_y, min_alpha))),
+        facets(m.distribution, m.alpha_x, m.alpha_y),
+        phong(phong_exponent(alpha)),
+        seen(facets.seen_area(view)) {}
+  Rgb operator()(const Vec3d& l) const { return fresnel_reflectance(lobe, 0.5 * length(v + l)) * shape(l); }
+  // Without Fresnel.
+  double shape(const Vec3d& l) const {
+    if (lobe.distribution == Distribution::phong) return (phong + 2) / (2 * pi) * mirror_power(l) * l.z;
+    return facets.density(v + l) * l.z * masked(l);
+  }
+  // With U = n.x / G1(x), G2 = 1 / (1 + Lambda(v) + Lambda(l)) is n.v n.l / (n.l U(v) + n.v U(l) - n.v n.l).
+  double masked(const Vec3d& l) const {
+    switch (lobe.masking) {
+      case Masking::correlated:
+        return 0.25 / (l.z * seen + v.z * facets.seen_area(l) - v.z * l.z);
+      case Masking::separable:
+        return 0.25 / (seen * facets.seen_area(l));
+      default:
+        return 0.25 / (schlick_area(v) * schlick_area(l));
+    }
+  }
+  double schlick_area(const Vec3d& d) const {
+    return schlick_seen_area(d.z, schlick_masking_k(lobe.masking, std::min(facets.alpha_towards(d), 1.0)));
+  }
+  // cos(delta)^n of the angle between the light and the mirror direction: sin(delta / 2) is half their distance.
+  double mirror_power(const Vec3d& l) const {
+    const Vec3d apart = l - Vec3d{-v.x, -v.y, v.z};
+    const double sine2 = 0.25 * dot(apart, apart);
+    return sine2 < 0.5 ? std::exp(phong * std::log1p(-2 * sine2)) : 0;
+  }
+
+  double pdf(const Vec3d& l) const {
+    if (lobe.distribution == Distribution::phong) return (phong + 1) / (2 * pi) * mirror_power(l);
+    return facets.density(v + l) / (4 * seen);
+  }
+  double highest_pdf() const {
+    return lobe.distribution == Distribution::phong ? (phong + 1) / (2 * pi) : facets.highest_density() / (4 * seen);
+  }
+  // May lie below the horizon.
+  Vec3d sample(const Vec2d& u) const {
+    if (lobe.distribution != Distribution::phong) {
+      const Vec3d h = facets.seen_normal(v, u);
+      return h * (2 * dot(v, h)) - v;
+    }
+    // cos^(n + 1) is uniform.
+    const double cosine = std::pow(1 - u.x, 1 / (phong + 1)), sine = std::sqrt(std::max(-std::expm1(2 * std::log(cosine)), 0.0));
+    const Basis about = basis_around({-v.x, -v.y, v.z});
+    return about.tangent * (sine * std::cos(2 * pi * u.y)) + about.bitangent * (sine * std::sin(2 * pi * u.y)) + about.normal * cosine;
+  }
+  LobeFacts facts() const {
+    const double narrow = std::max(std::min(lobe.alpha_x, lobe.alpha_y), min_alpha);
+    return {.alpha = narrow, .specular_share = 1, .round_ggx = lobe.distribution == Distribution::ggx && lobe.alpha_x == lobe.alpha_y};
+  }
+  Vec3d v;
+  SpecularLobe lobe;
+  double alpha;
+  Facets facets;
+  double phong, seen;
+};
+
 struct ConductorKernel {
   ConductorKernel(const Conductor& m, const Vec3d& view)
       : v(view),
@@ -194,7 +261,7 @@ struct StandardKernel {
         lobe(alpha, Masking::correlated, view),
         diffuse(FrostbiteDiffuse{m.base_colour * (1 - m.metal), m.roughness}, view),
         f0(Rgb{1, 1, 1} * (0.16 * m.reflectance * m.reflectance * (1 - m.metal)) + m.base_colour * m.metal),
-        f90(std::clamp(50 * 0.33 * (f0.x + f0.y + f0.z), 0.0, 1.0)) {}
+        f90(occluded_f90(f0)) {}
   Rgb operator()(const Vec3d& l) const {
     const HalfAngle h = half_angle(v, l);
     return diffuse.scale * (l.z * diffuse.shape(l.z, h.v_dot_h)) + schlick(f0, f90, schlick_weight(h.v_dot_h)) * lobe(h, l.z);
@@ -268,6 +335,7 @@ inline OrenNayarKernel kernel_of(const OrenNayar& m, const Vec3d& v) { return {m
 inline GotandaKernel kernel_of(const GotandaDiffuse& m, const Vec3d& v) { return {m, v}; }
 inline GgxKernel kernel_of(const GgxLobe& m, const Vec3d& v) { return {m, v}; }
 inline TwoColourKernel kernel_of(const TwoColour& m, const Vec3d& v) { return {m, v}; }
+inline SpecularKernel kernel_of(const SpecularLobe& m, const Vec3d& v) { return {m, v}; }
 
 // Calls `use` with the kernel of whatever the BRDF holds: the choice is made once, not for every direction.
 template <class Use>

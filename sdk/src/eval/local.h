@@ -14,6 +14,7 @@ namespace etendue::eval {
 class LocalFrame {
  public:
   LocalFrame(const Vec3d& position, const Vec3d& normal) : origin_(position), basis_(basis_around(normal)) {}
+  explicit LocalFrame(const ShadingPoint& point) : origin_(point.position), basis_(shading_basis(point)) {}
   Vec3d vector(const Vec3d& v) const { return {dot(basis_.tangent, v), dot(basis_.bitangent, v), dot(basis_.normal, v)}; }
   Vec3d point(const Vec3d& p) const { return vector(p - origin_); }
   Vec3d to_world(const Vec3d& v) const { return basis_.tangent * v.x + basis_.bitangent * v.y + basis_.normal * v.z; }

@@ -7,13 +7,6 @@
 namespace etendue::eval {
 namespace {
 
-// G / (n.v): the facets' normals enter Smith's masking only by the side of them that is seen.
-double masking_over_view(const LambertianFacets& f, double alpha, double nv, double nl) {
-  const auto root = [alpha](double x) { return std::sqrt(x * x + alpha * alpha * (1 - x * x)); };
-  const double sv = root(nv), sl = root(nl);
-  return f.masking == Masking::correlated ? 2 * nl / (nl * sv + nv * sl) : 4 * nl / ((nv + sv) * (nl + sl));
-}
-
 double diffuse_transmittance(double eta) { return 1 + 1.44 / (eta * eta) - 0.71 / eta - 0.668 - 0.0636 * eta; }
 
 }  // namespace
@@ -46,7 +39,9 @@ FacetSum brdf_cos(const LambertianFacets& facets, const Vec3d& view, const Vec3d
   };
   const Estimate sum = FanIntegrator(integrand, Tolerance{relative, 0}).integrate({fan});
   const double leaving = facets.interface == FacetInterface::diffuse_exit ? diffuse_transmittance(facets.eta) : 1;
-  const double scale = masking_over_view(facets, alpha, view.z, light.z) * leaving / (pi * pi);
+  // The facets' normals enter Smith's masking only by the side of them that is seen.
+  const double masking_over_view = 4 * light.z * GgxView(alpha, facets.masking, view).masked(light.z);
+  const double scale = masking_over_view * leaving / (pi * pi);
   return {scale * sum.value.x, scale * sum.error.x};
 }
 

@@ -163,7 +163,7 @@ SampledEstimate monte_carlo(const Emitter& emitter, const ShadingPoint& point, c
     estimate.standard_error = exact.error / 3;
     return estimate;
   }
-  const LocalFrame frame(point.position, point.normal);
+  const LocalFrame frame(point);
   const Horizons horizons = horizons_of(frame, point.normal, point.surface_normal);
   const Vec3d view = frame.vector(point.view);
   if (!(view.z > 0)) return estimate;

@@ -189,7 +189,7 @@ Estimate over_outlines(const Setting& s, const Kernel& kernel) {
   const Rgb radiance = luminance_of(s.emitter);
   const Tolerance tolerance = Scaled(radiance)(s.tolerance);
   const bool modulated = is_modulated(s.emitter);
-  const Estimate tried = modulated || facts.folded ? Estimate{} : over_small_disk(s, kernel, facts.alpha, tolerance);
+  const Estimate tried = modulated || facts.folded || !facts.round_ggx ? Estimate{} : over_small_disk(s, kernel, facts.alpha, tolerance);
   if (tried.evaluations > 0 && reached(tried, tolerance)) return {tried.value * radiance, tried.error * radiance, tried.evaluations};
   std::vector<Fan> fans;
   each_outline(s.emitter, s.frame, [&](const Contour& outline, std::size_t index) {
@@ -251,7 +251,7 @@ Estimate evaluate(const Setting& s, const Kernel& kernel) {
 }  // namespace
 
 Estimate reference(const Emitter& emitter, const ShadingPoint& point, const Tolerance& tolerance) {
-  const LocalFrame frame(point.position, point.normal);
+  const LocalFrame frame(point);
   const Horizons horizons = horizons_of(frame, point.normal, point.surface_normal);
   const Vec3d view = frame.vector(point.view);
   if (!(view.z > 0)) return {};

@@ -45,7 +45,7 @@ double sum(const Rgb& c) { return c.x + c.y + c.z; }
 // A shading point with its frame: directions of the world in, reflected parts out.
 class Reflector {
  public:
-  explicit Reflector(const eval::ShadingPoint& point) : point_(point), frame_(basis_around(point.normal)), view_(local(point.view)) {}
+  explicit Reflector(const eval::ShadingPoint& point) : point_(point), frame_(eval::shading_basis(point)), view_(local(point.view)) {}
 
   // BRDF times cosine; 0 below either horizon.
   Rgb brdf_cos(const Vec3d& direction) const {
