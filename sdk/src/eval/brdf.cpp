@@ -1,4 +1,5 @@
 #include "kernels.h"
+#include "quadrature.h"
 
 namespace etendue::eval {
 namespace {
@@ -33,8 +34,7 @@ Vec3d sample_mixed(const LobeFacts& facts, const Vec3d& view, const Vec2d& u) {
     const Vec3d h = sample_seen_ggx(facts.alpha, facts.alpha, view, {u.x / facts.specular_share, u.y});
     return h * (2 * dot(view, h)) - view;
   }
-  const double r2 = (u.x - facts.specular_share) / (1 - facts.specular_share), phi = 2 * pi * u.y;
-  return {std::sqrt(r2) * std::cos(phi), std::sqrt(r2) * std::sin(phi), std::sqrt(std::max(1 - r2, 0.0))};
+  return cosine_direction({(u.x - facts.specular_share) / (1 - facts.specular_share), u.y});
 }
 
 template <class Kernel>
@@ -76,6 +76,16 @@ Rgb fresnel_reflectance(const SpecularLobe& lobe, double cosine) {
     default:
       return each([c](double eta, double k) { return conductor_reflectance(c, eta, k); });
   }
+}
+
+// Of light from all over the hemisphere, 2 F c dc: 24 nodes are exact for Schlick's.
+Rgb mean_fresnel(const SpecularLobe& lobe) {
+  Rgb sum;
+  for (const GaussNode& node : gauss24()) {
+    const double c = 0.5 * (1 + node.x);
+    sum += fresnel_reflectance(lobe, c) * (node.weight * c);
+  }
+  return sum;
 }
 
 Rgb brdf_cos(const Brdf& brdf, const Vec3d& view, const Vec3d& light) {

@@ -67,6 +67,7 @@ double Facets::density(const Vec3d& half) const {
     }
     case Distribution::beckmann: {
       const double cos2 = z2 / total;
+      if (cos2 < 1e-150) return 0;  // whose square is nothing, and exp(-1e150) even less
       return std::exp(-q2 / z2) / (pi * ax_ * ay_ * cos2 * cos2);
     }
     default:

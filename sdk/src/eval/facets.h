@@ -13,6 +13,9 @@
 
 namespace etendue::eval {
 
+// The mean of fresnel_reflectance over light from all over the hemisphere.
+Rgb mean_fresnel(const SpecularLobe& lobe);
+
 class Facets {
  public:
   Facets(Distribution distribution, double alpha_x, double alpha_y);

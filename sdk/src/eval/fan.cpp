@@ -35,22 +35,37 @@ std::vector<Arc> with_one_approach(const Arc& arc, const Vec3d& c) {
   return parts;
 }
 
+// Where the plane of the ridge crosses the arc, and ends of the arc that lie on the ridge's flank: the other flank is another arc's.
+std::vector<double> ridge_places(const Fan& fan, const Arc& arc) {
+  constexpr double flank = 30;  // widths
+  if (!(fan.ridge < 1)) return {};
+  const Vec3d n = cross(fan.centre, fan.in_plane);
+  const Crossings crossed = crossings(arc, n);
+  std::vector<double> places(crossed.s.begin(), crossed.s.begin() + static_cast<std::ptrdiff_t>(crossed.count));
+  const auto on_flank = [&](double s) {
+    const Vec3d b = arc.at(s);
+    return std::abs(dot(n, b)) < flank * fan.ridge * length(cross(fan.centre, b));
+  };
+  if (on_flank(arc.begin)) places.insert(places.begin(), arc.begin);
+  if (on_flank(arc.end)) places.push_back(arc.end);
+  return places;
+}
+
 void add_pieces(std::vector<FanArc>& pieces, const Fan& fan, const Arc& arc, double lobe) {
   const Nearest nearest = nearest_to(arc, fan.centre);
   const double scale = std::max(nearest.distance, lobe) / std::max(nearest.speed, 1e-300);
-  Crossings ridges;
-  if (fan.ridge < 1) ridges = crossings(arc, cross(fan.centre, fan.in_plane));
-  // Each crossing of the ridge owns the part of the arc up to halfway (in w) to the closest approach or to the other crossing.
+  const std::vector<double> ridges = ridge_places(fan, arc);
+  // Each place on the ridge owns the part of the arc up to halfway (in w) to the closest approach or to the next place.
   const auto halfway = [&](double s, double t) {
     const double w = 0.5 * (std::asinh((s - nearest.s) / scale) + std::asinh((t - nearest.s) / scale));
     return nearest.s + scale * std::sinh(w);
   };
   double begin = arc.begin;
-  for (std::size_t k = 0; k < ridges.count; ++k) {
-    const double at = ridges.s[k];
+  for (std::size_t k = 0; k < ridges.size(); ++k) {
+    const double at = ridges[k];
     double lo = at > nearest.s ? halfway(nearest.s, at) : arc.begin, hi = at < nearest.s ? halfway(at, nearest.s) : arc.end;
-    if (k > 0) lo = std::max(lo, halfway(ridges.s[0], at));
-    if (k + 1 < ridges.count) hi = std::min(hi, halfway(at, ridges.s[1]));
+    if (k > 0) lo = std::max(lo, halfway(ridges[k - 1], at));
+    if (k + 1 < ridges.size()) hi = std::min(hi, halfway(at, ridges[k + 1]));
     const double width = std::min(fan.ridge / std::max(azimuth_speed(arc, fan.centre, at), 1e-300), scale);
     if (lo > begin) pieces.emplace_back(fan, part_of(arc, begin, lo), nearest.s, scale);
     lo = std::max(lo, begin);

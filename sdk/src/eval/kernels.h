@@ -2,6 +2,7 @@
 // A kernel gives BRDF times cosine for a unit direction above the horizon (l.z > 0), with the view above the horizon too.
 #pragma once
 
+#include "etendue/directional_albedo.h"
 #include "etendue/eval.h"
 #include "facets.h"
 #include "fresnel.h"
@@ -114,22 +115,36 @@ struct GgxKernel {
   double f90, alpha;
 };
 
-// D G F / (4 n.v n.l) n.l of the facets of facets.h, masked by what the view and the light see of them, or Phong's lobe.
+// D G F / (4 n.v n.l) n.l of the facets of facets.h, masked by what the view and the light see of them, or Phong's lobe; and with a curve E
+// of its albedo the light that facets pass on to each other (Kulla and Conty 2017):
+//   (1 - E(v)) (1 - E(l)) / (pi (1 - Em)) F_m,   Em the mean of E over the hemisphere (albedo_curve.cpp).
+// Reciprocal; with F_m = 1 its integral over l is 1 - E(v): what the lobe lacks of 1. Light that meets facets k times more is left with the
+// mean reflectance F^k and (1 - Em)^(k - 1) Em of it leaves then: of the series from the second reflection on, as a part of what it is
+// without loss, F_m = F sum of F^k (1 - Em)^(k - 1) Em = F^2 Em / (1 - F (1 - Em)).
 struct SpecularKernel {
   SpecularKernel(const SpecularLobe& m, const Vec3d& view)
       : v(view),
         lobe(m),
-        alpha(std::sqrt(std::max(m.alpha_x, min_alpha) * std::max(m.alpha_y, min_alpha))),
         facets(m.distribution, m.alpha_x, m.alpha_y),
-        phong(phong_exponent(alpha)),
-        seen(facets.seen_area(view)) {}
-  Rgb operator()(const Vec3d& l) const { return fresnel_reflectance(lobe, 0.5 * length(v + l)) * shape(l); }
-  // Without Fresnel.
+        phong(phong_exponent(std::sqrt(std::max(m.alpha_x, min_alpha) * std::max(m.alpha_y, min_alpha)))),
+        seen(facets.seen_area(view)) {
+    if (m.compensation == nullptr) return;
+    const double mean = mean_albedo(*m.compensation), lost = 1 - mean;
+    if (!(lost > least_lost)) return;
+    missing = 1 - albedo(*m.compensation, view);
+    const Rgb f = mean_fresnel(m);
+    for (int c = 0; c < 3; ++c) passed_on[c] = missing / (pi * lost) * f[c] * f[c] * mean / (1 - f[c] * lost);
+  }
+  Rgb operator()(const Vec3d& l) const {
+    const Rgb once = fresnel_reflectance(lobe, 0.5 * length(v + l)) * shape(l);
+    return missing > 0 ? once + passed_on * ((1 - albedo(*lobe.compensation, l)) * l.z) : once;
+  }
+  // Without Fresnel and what is passed on.
   double shape(const Vec3d& l) const {
     if (lobe.distribution == Distribution::phong) return (phong + 2) / (2 * pi) * mirror_power(l) * l.z;
     return facets.density(v + l) * l.z * masked(l);
   }
-  // With U = n.x / G1(x), G2 = 1 / (1 + Lambda(v) + Lambda(l)) is n.v n.l / (n.l U(v) + n.v U(l) - n.v n.l).
+  // G / (4 n.v n.l). With U = n.x / G1(x), G2 = 1 / (1 + Lambda(v) + Lambda(l)) is n.v n.l / (n.l U(v) + n.v U(l) - n.v n.l).
   double masked(const Vec3d& l) const {
     switch (lobe.masking) {
       case Masking::correlated:
@@ -150,33 +165,42 @@ struct SpecularKernel {
     return sine2 < 0.5 ? std::exp(phong * std::log1p(-2 * sine2)) : 0;
   }
 
-  double pdf(const Vec3d& l) const {
+  // What is missing is drawn by the cosine.
+  double pdf(const Vec3d& l) const { return (1 - missing) * lobe_pdf(l) + missing * l.z / pi; }
+  double lobe_pdf(const Vec3d& l) const {
     if (lobe.distribution == Distribution::phong) return (phong + 1) / (2 * pi) * mirror_power(l);
     return facets.density(v + l) / (4 * seen);
   }
   double highest_pdf() const {
-    return lobe.distribution == Distribution::phong ? (phong + 1) / (2 * pi) : facets.highest_density() / (4 * seen);
+    const double peak = lobe.distribution == Distribution::phong ? (phong + 1) / (2 * pi) : facets.highest_density() / (4 * seen);
+    return (1 - missing) * peak + missing / pi;
   }
   // May lie below the horizon.
   Vec3d sample(const Vec2d& u) const {
+    if (u.x < missing) return cosine_direction({u.x / missing, u.y});
+    const Vec2d left{(u.x - missing) / (1 - missing), u.y};
     if (lobe.distribution != Distribution::phong) {
-      const Vec3d h = facets.seen_normal(v, u);
+      const Vec3d h = facets.seen_normal(v, left);
       return h * (2 * dot(v, h)) - v;
     }
     // cos^(n + 1) is uniform.
-    const double cosine = std::pow(1 - u.x, 1 / (phong + 1)), sine = std::sqrt(std::max(-std::expm1(2 * std::log(cosine)), 0.0));
+    const double cosine = std::pow(1 - left.x, 1 / (phong + 1)), sine = std::sqrt(std::max(-std::expm1(2 * std::log(cosine)), 0.0));
     const Basis about = basis_around({-v.x, -v.y, v.z});
-    return about.tangent * (sine * std::cos(2 * pi * u.y)) + about.bitangent * (sine * std::sin(2 * pi * u.y)) + about.normal * cosine;
+    const Vec3d across = about.tangent * std::cos(2 * pi * left.y) + about.bitangent * std::sin(2 * pi * left.y);
+    return across * sine + about.normal * cosine;
   }
   LobeFacts facts() const {
-    const double narrow = std::max(std::min(lobe.alpha_x, lobe.alpha_y), min_alpha);
-    return {.alpha = narrow, .specular_share = 1, .round_ggx = lobe.distribution == Distribution::ggx && lobe.alpha_x == lobe.alpha_y};
+    return {.alpha = std::max(std::min(lobe.alpha_x, lobe.alpha_y), min_alpha),
+            .specular_share = 1,
+            .round_ggx = lobe.distribution == Distribution::ggx && lobe.alpha_x == lobe.alpha_y};
   }
+  static constexpr double least_lost = 1e-9;  // of all light: below it nothing is passed on
   Vec3d v;
   SpecularLobe lobe;
-  double alpha;
   Facets facets;
   double phong, seen;
+  double missing = 0;  // 1 - E(v)
+  Rgb passed_on;
 };
 
 struct ConductorKernel {

@@ -76,6 +76,12 @@ class GgxView {
   Masking masking_;
 };
 
+// With the density cos / pi.
+inline Vec3d cosine_direction(const Vec2d& u) {
+  const double r = std::sqrt(u.x), phi = 2 * pi * u.y;
+  return {r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(1 - u.x, 0.0))};
+}
+
 // Normal of a facet as seen from `view`, with density G1(v) max(v.h, 0) D(h) / n.v: Heitz 2018, Sampling the GGX Distribution of
 // Visible Normals. The surface is stretched by 1 / alpha to a hemisphere, whose projection onto the plane across the view is sampled.
 inline Vec3d sample_seen_ggx(double alpha_x, double alpha_y, const Vec3d& view, const Vec2d& u) {
