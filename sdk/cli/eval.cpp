@@ -15,6 +15,7 @@
 
 #include "csv.h"
 #include "etendue/diffuse_light.h"
+#include "etendue/directional_albedo.h"
 #include "etendue/illuminance_batch.h"
 #include "etendue/published.h"
 #include "etendue/render.h"
@@ -34,7 +35,7 @@ struct Options {
   ImportOptions import;
   double alpha = -1, alpha_across = -1, roughness = -1, f0 = 0.04, f90 = 1, tolerance = 1e-4;
   std::optional<std::uint64_t> samples, seed;
-  bool sum = false, micro_occlusion = false;
+  bool sum = false, micro_occlusion = false, passed_on = false;
 };
 
 // Of one light at one point: lux or cd/m2, an absolute bound of the error in the worst channel, and how it was found.
@@ -114,14 +115,18 @@ Result<eval::Brdf> specular_of(const Options& o, double alpha) {
   }
   if (!(std::min({lobe.eta.x, lobe.eta.y, lobe.eta.z}) > 0) || !(std::min({lobe.k.x, lobe.k.y, lobe.k.z}) >= 0))
     return usage("--eta, --k: expected indices of refraction above 0 and extinctions of 0 or more");
+  if (o.passed_on && lobe.distribution == eval::Distribution::phong)
+    return usage("--passed-on: expected --brdf ggx, beckmann or blinn-phong, found phong, which has no facets");
+  if (o.passed_on) lobe.compensation = eval::albedo_curve(lobe);
   return eval::Brdf{lobe};
 }
 
 Result<eval::Brdf> brdf_of(const Options& o, const Rgb& base, double roughness) {
   if (distributions.contains(o.brdf)) return specular_of(o, o.alpha >= 0 ? o.alpha : roughness * roughness);
-  if (o.alpha_across >= 0 || !o.tangent.empty() || o.fresnel != "schlick" || !o.eta.empty() || !o.k.empty() || o.micro_occlusion)
-    return usage(
-        fmt::format("--alpha-across, --tangent, --fresnel, --eta, --k, --micro-occlusion: expected a specular --brdf, found {}", o.brdf));
+  if (o.alpha_across >= 0 || !o.tangent.empty() || o.fresnel != "schlick" || !o.eta.empty() || !o.k.empty() || o.micro_occlusion ||
+      o.passed_on)
+    return usage(fmt::format(
+        "--alpha-across, --tangent, --fresnel, --eta, --k, --micro-occlusion, --passed-on: expected a specular --brdf, found {}", o.brdf));
   if (o.brdf == "lambert") return eval::Brdf{Lambert{{1, 1, 1}}};
   if (o.brdf == "disney") return eval::Brdf{eval::DisneyDiffuse{base, roughness}};
   if (o.brdf == "frostbite") return eval::Brdf{eval::FrostbiteDiffuse{base, roughness}};
@@ -492,6 +497,7 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
   verb->add_flag("--micro-occlusion", options->micro_occlusion, "Of a lobe: f90 = min(50 f0, 1)");
+  verb->add_flag("--passed-on", options->passed_on, "Of a lobe: with the light that facets pass on to each other");
   verb->add_option("--masking", options->masking,
                    "Of a lobe: correlated, separable (both Smith's), schlick-direct or schlick-image (Karis')")
       ->capture_default_str()

@@ -1,6 +1,7 @@
 // The numbers behind the pictures of sdk/docs, as JSON; sdk/docs/pictures/draw draws them.
 #include "diffuse_curves.h"
 #include "light_curves.h"
+#include "lobe_curves.h"
 #include "peers.h"
 
 #include "etendue/batch.h"
@@ -180,6 +181,9 @@ int main() {
                     {"colour_errors", colour_errors()},
                     {"diffuse_reflectances", diffuse_reflectances(0.8)},
                     {"diffuse_rule_errors", diffuse_rule_errors()},
+                    {"specular_albedos", specular_albedos(0.5)},
+                    {"passed_on_light", passed_on_light()},
+                    {"fresnel_terms", fresnel_terms()},
                     {"light_outlines", light_outlines()},
                     {"sphere_units", sphere_units()},
                     {"sphere_without_horizon", sphere_without_horizon()},

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -63,6 +64,20 @@ TEST(DirectionalAlbedo, IsTheReferenceUnderASky) {
       const double ours = lobe.f0[c] * parts.f0_part + lobe.f90 * parts.f90_part;
       EXPECT_NEAR(ours, sky.value[c], 3e-8 * ours + sky.error[c]) << static_cast<int>(d) << " alpha " << alpha << " cosine " << view.z;
       EXPECT_NEAR(ours, all.value[c], 1e-8 * ours + all.error[c]);
+    }
+  }
+}
+
+// At grazing views the lobe is a ridge in azimuth as thin as n.v, that runs into the horizon where its outline begins.
+TEST(DirectionalAlbedo, ReferenceKeepsRidges) {
+  for (const double alpha : {1e-3, 0.1, 1.0}) {
+    for (const double cosine : {1e-4, 1e-3, 1e-2}) {
+      for (const double azimuth : {0.0, 1e-5, -1e-5, 0.3, pi}) {
+        const SpecularLobe lobe = lobe_of(Distribution::ggx, alpha, alpha);
+        const Vec3d view = at(cosine, azimuth);
+        const Estimate sky = under_sky(lobe, view, 1e-6);
+        EXPECT_NEAR(sky.value.x, directional_albedo(lobe, view, 1e-8).sum(), 2e-6) << alpha << ' ' << cosine << ' ' << azimuth;
+      }
     }
   }
 }
@@ -201,6 +216,31 @@ TEST(AlbedoCurve, OfStretchedFacets) {
       EXPECT_NEAR(albedo(*curve, v), directional_albedo(lobe, v, 1e-8).sum(), 2e-5) << alpha;
     }
   }
+}
+
+// Every place between the entries: alphas and cosines all over their decades, and the corners.
+TEST(AlbedoTable, KeepsItsBound) {
+  Random random(6);
+  struct Case {
+    SpecularLobe lobe;
+    double within;
+  };
+  for (const Case& c :
+       {Case{lobe_of(Distribution::ggx, 1, 1), 5e-4}, Case{lobe_of(Distribution::beckmann, 1, 1, Masking::separable), 1e-3}}) {
+    const auto table = albedo_table(c.lobe);
+    SpecularLobe lobe = c.lobe;
+    double worst = 0;
+    for (int i = 0; i < 400; ++i) {
+      double alpha = i % 3 == 0 ? random.uniform(1e-4, 1) : random.log_uniform(1e-4, 1);
+      double cosine = i % 2 == 0 ? random.uniform(1e-4, 1) : random.log_uniform(1e-4, 1);
+      if (i < 4) alpha = i % 2 == 0 ? 1e-4 : 1, cosine = i < 2 ? 1e-4 : 1;
+      lobe.alpha_x = lobe.alpha_y = alpha;
+      const AlbedoParts exact = directional_albedo(lobe, at(cosine), 1e-7), fast = albedo_parts(*table, alpha, cosine);
+      worst = std::max({worst, std::abs(exact.f0_part - fast.f0_part), std::abs(exact.f90_part - fast.f90_part)});
+    }
+    EXPECT_LE(worst, c.within);
+  }
+  EXPECT_EQ(albedo_table(lobe_of(Distribution::phong, 1, 1)), nullptr);
 }
 
 // Integral over the hemisphere of what two lobes differ by, smooth but for a layer of alpha above the horizon.

@@ -31,10 +31,11 @@ Vec3d at(double cosine, double azimuth = 0) {
 template <class Function>
 double over_normals(double width, int azimuths, const Function& f) {
   const double last = std::asinh(1e12 / width), panel = 0.75;
+  const int panels = static_cast<int>(std::ceil(last / panel));
   double sum = 0;
-  for (double w0 = 0; w0 < last; w0 += panel) {
+  for (int p = 0; p < panels; ++p) {
     for (const GaussNode& node : gauss24()) {
-      const double w = w0 + 0.5 * panel * (1 + node.x), r = width * std::sinh(w), cosine = 1 / std::sqrt(1 + r * r);
+      const double w = panel * (p + 0.5 * (1 + node.x)), r = width * std::sinh(w), cosine = 1 / std::sqrt(1 + r * r);
       double ring = 0;
       for (int i = 0; i < azimuths; ++i) {
         const double phi = 2 * pi * (i + 0.5) / azimuths;

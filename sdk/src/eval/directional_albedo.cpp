@@ -80,14 +80,15 @@ class SlopeIntegral {
       sum += weights(std::min(over_normal * short_factor, 1.0)) * (density * over_normal * 4 * nl * kernel_.masked(light) * r * dr);
     };
     const auto panels = [&](double scale, auto&& use) {
-      const double end = std::asinh(0.5 * border / scale), panel = end / std::ceil(end / 1.5);
-      for (double w = 0; w < end - 1e-9; w += panel) {
+      const double end = std::asinh(0.5 * border / scale);
+      const int count = static_cast<int>(std::ceil(end / 1.5));
+      for (int i = 0; i < count; ++i) {
         for (const GaussNode& node : gauss24()) {
-          const double u = w + 0.5 * panel * (1 + node.x);
-          use(scale * std::sinh(u), 0.5 * panel * node.weight * scale * std::cosh(u));
+          const double w = end / count * (i + 0.5 * (1 + node.x));
+          use(scale * std::sinh(w), 0.5 * end / count * node.weight * scale * std::cosh(w));
         }
       }
-      evaluations_ += 24 * static_cast<std::uint64_t>(std::ceil(end / 1.5));
+      evaluations_ += 24 * static_cast<std::uint64_t>(count);
     };
     panels(a, [&](double r, double dr) { at(r, border - r, dr); });
     panels(b, [&](double away, double dr) { at(border - away, away, dr); });

@@ -35,19 +35,24 @@ std::vector<Arc> with_one_approach(const Arc& arc, const Vec3d& c) {
   return parts;
 }
 
-// Where the plane of the ridge crosses the arc, and ends of the arc that lie on the ridge's flank: the other flank is another arc's.
+// Sine of the azimuth about the centre, from the plane of the ridge.
+double off_ridge(const Fan& fan, const Vec3d& b) {
+  return std::abs(dot(cross(fan.centre, fan.in_plane), b)) / std::max(length(cross(fan.centre, b)), 1e-300);
+}
+
+// Where the plane of the ridge crosses the arc, and ends of the arc where the integrand is not flat in azimuth: on the ridge's flank, whose
+// other flank is another arc's, and close to the direction opposite to the centre, about which the azimuth turns fast.
 std::vector<double> ridge_places(const Fan& fan, const Arc& arc) {
-  constexpr double flank = 30;  // widths
+  constexpr double flank = 30, fast = 3;  // widths; turns of the azimuth per turn of the arc
   if (!(fan.ridge < 1)) return {};
-  const Vec3d n = cross(fan.centre, fan.in_plane);
-  const Crossings crossed = crossings(arc, n);
+  const Crossings crossed = crossings(arc, cross(fan.centre, fan.in_plane));
   std::vector<double> places(crossed.s.begin(), crossed.s.begin() + static_cast<std::ptrdiff_t>(crossed.count));
-  const auto on_flank = [&](double s) {
+  const auto steep = [&](double s) {
     const Vec3d b = arc.at(s);
-    return std::abs(dot(n, b)) < flank * fan.ridge * length(cross(fan.centre, b));
+    return off_ridge(fan, b) < flank * fan.ridge || (dot(fan.centre, b) < 0 && azimuth_speed(arc, fan.centre, s) > fast);
   };
-  if (on_flank(arc.begin)) places.insert(places.begin(), arc.begin);
-  if (on_flank(arc.end)) places.push_back(arc.end);
+  if (steep(arc.begin)) places.insert(places.begin(), arc.begin);
+  if (steep(arc.end)) places.push_back(arc.end);
   return places;
 }
 
@@ -66,7 +71,8 @@ void add_pieces(std::vector<FanArc>& pieces, const Fan& fan, const Arc& arc, dou
     double lo = at > nearest.s ? halfway(nearest.s, at) : arc.begin, hi = at < nearest.s ? halfway(at, nearest.s) : arc.end;
     if (k > 0) lo = std::max(lo, halfway(ridges[k - 1], at));
     if (k + 1 < ridges.size()) hi = std::min(hi, halfway(at, ridges[k + 1]));
-    const double width = std::min(fan.ridge / std::max(azimuth_speed(arc, fan.centre, at), 1e-300), scale);
+    const double turn = std::max(fan.ridge, off_ridge(fan, arc.at(at)));
+    const double width = std::min(turn / std::max(azimuth_speed(arc, fan.centre, at), 1e-300), scale);
     if (lo > begin) pieces.emplace_back(fan, part_of(arc, begin, lo), nearest.s, scale);
     lo = std::max(lo, begin);
     if (at > lo) pieces.emplace_back(fan, part_of(arc, lo, at), at, width);
