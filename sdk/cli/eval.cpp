@@ -20,6 +20,7 @@
 #include "etendue/published.h"
 #include "etendue/render.h"
 #include "etendue/rig_batch.h"
+#include "etendue/specular_methods.h"
 #include "eval_points.h"
 #include "limits.h"
 #include "verbs.h"
@@ -70,6 +71,7 @@ const std::map<std::string, eval::Fresnel> fresnels{{"schlick", eval::Fresnel::s
 template <class Value>
 std::vector<std::string> names_of(const std::map<std::string, Value>& values) {
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const auto& [name, value] : values) names.push_back(name);
   return names;
 }
@@ -155,7 +157,7 @@ class Evaluator {
   Status accepts(const Emitter& emitter, const std::string& name) const;
 
  private:
-  Status choose_diffuse_rule(const Options& options);
+  Status choose_rule(const Options& options);
   eval::ShadingPoint shading_point(const PointRow& point) const;
   Answer by_reference(const Emitter& emitter, const PointRow& point) const;
   Answer by_rule(const Emitter& emitter, const PointRow& point) const;
@@ -164,6 +166,7 @@ class Evaluator {
   bool lambert_ = true, fast_ = false;
   const eval::DiffuseMethod* published_ = nullptr;  // of lambert
   const eval::DiffuseRule* rule_ = nullptr;         // of other diffuse BRDFs
+  const eval::SpecularMethod* specular_ = nullptr;  // of specular lobes
   std::optional<eval::Sampling> sampling_;
   bool closed_ = true;  // closed forms where there are any
   eval::Brdf brdf_;
@@ -200,7 +203,7 @@ Result<Evaluator> Evaluator::of(const Options& o) {
     return e;
   }
   if (!e.lambert_) {
-    if (const Status chosen = e.choose_diffuse_rule(o); !chosen) return chosen.error();
+    if (const Status chosen = e.choose_rule(o); !chosen) return chosen.error();
     return e;
   }
   if (o.method == "fast") {
@@ -215,17 +218,23 @@ Result<Evaluator> Evaluator::of(const Options& o) {
                "published: " + names);
 }
 
-Status Evaluator::choose_diffuse_rule(const Options& o) {
-  if (!eval::is_diffuse(brdf_))
-    return usage(fmt::format("--method {}: expected exact, reference or monte-carlo with --brdf {}", o.method, o.brdf),
-                 "others are for diffuse BRDFs alone");
-  fast_ = o.method == "fast";
-  if (fast_) return Done{};
-  rule_ = eval::find_diffuse_rule(o.method);
-  if (rule_ != nullptr) return Done{};
+Status Evaluator::choose_rule(const Options& o) {
   std::string names;
-  for (const eval::DiffuseRule& r : eval::diffuse_rules()) names += fmt::format(", {}", r.name);
-  return usage(fmt::format("--method: expected exact, fast, reference, monte-carlo{} with --brdf {}, found '{}'", names, o.brdf, o.method));
+  const auto list = [&](const auto& all) {
+    for (const auto& each : all) names += fmt::format(", {}", each.name);
+  };
+  if (eval::is_diffuse(brdf_)) {
+    fast_ = o.method == "fast";
+    rule_ = eval::find_diffuse_rule(o.method);
+    if (fast_ || rule_ != nullptr) return Done{};
+    names = ", fast";
+    list(eval::diffuse_rules());
+  } else if (distributions.contains(o.brdf)) {
+    specular_ = eval::find_specular_method(o.method);
+    if (specular_ != nullptr) return Done{};
+    list(eval::specular_methods());
+  }
+  return usage(fmt::format("--method: expected exact, reference, monte-carlo{} with --brdf {}, found '{}'", names, o.brdf, o.method));
 }
 
 Status Evaluator::accepts(const Emitter& emitter, const std::string& name) const {
@@ -242,6 +251,16 @@ Status Evaluator::accepts(const Emitter& emitter, const std::string& name) const
       !(has_closed_form(emitter) && !is_window(emitter.window) && published_->illuminance(emitter, probe.position, probe.normal)))
     return refused(published_->name);
   if (rule_ != nullptr && !rule_->luminance(emitter, shading_point(probe))) return refused(rule_->name);
+  if (specular_ != nullptr && !specular_->luminance(emitter, shading_point(probe))) {
+    return Error{
+        "METHOD_UNSUPPORTED",
+        fmt::format("light '{}': expected an area light without pattern or range and round GGX of correlated masking and Schlick's "
+                    "Fresnel, which {} takes",
+                    name, specular_->name),
+        {},
+        "--lights chooses some",
+        {}};
+  }
   return Done{};
 }
 
@@ -259,14 +278,15 @@ Answer Evaluator::by_reference(const Emitter& emitter, const PointRow& p) const 
 
 Answer Evaluator::by_rule(const Emitter& emitter, const PointRow& p) const {
   const eval::ShadingPoint point = shading_point(p);
-  if (rule_ == nullptr) {
+  if (rule_ == nullptr && specular_ == nullptr) {
     const eval::Estimate estimate = eval::diffuse_luminance(emitter, point).value_or(eval::Estimate{});
     return {estimate.value, largest(estimate.error), "ratio"};
   }
   // What others' rules are off by is measured here, against the reference.
   const Answer exact = by_reference(emitter, p);
-  const Rgb value = rule_->luminance(emitter, point).value_or(Rgb{});
-  return {value, largest(value - exact.value) + exact.bound, rule_->name};
+  const std::optional<Rgb> luminance = rule_ != nullptr ? rule_->luminance(emitter, point) : specular_->luminance(emitter, point);
+  const Rgb value = luminance.value_or(Rgb{});
+  return {value, largest(value - exact.value) + exact.bound, rule_ != nullptr ? rule_->name : specular_->name};
 }
 
 Answer Evaluator::by_samples(const Emitter& emitter, const PointRow& p) const {
@@ -284,7 +304,8 @@ Answer Evaluator::operator()(const Emitter& emitter, const PointRow& p) const {
     const Rgb exact = eval::illuminance(emitter, p.position, p.normal);
     return {value, largest(value - exact) + rounding_of(emitter, exact), published_->name};
   }
-  if (!lambert_ && (rule_ != nullptr || (fast_ && has_closed_form(emitter) && !is_window(emitter.window)))) return by_rule(emitter, p);
+  if (!lambert_ && (rule_ != nullptr || specular_ != nullptr || (fast_ && has_closed_form(emitter) && !is_window(emitter.window))))
+    return by_rule(emitter, p);
   if (!lambert_ || !closed_ || !has_closed_form(emitter)) return by_reference(emitter, p);
   const Rgb value = eval::illuminance(emitter, p.position, p.normal);
   return {value, rounding_of(emitter, value), "exact"};
@@ -513,7 +534,9 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--base-colour", options->base_colour, "r,g,b, linear")->capture_default_str();
   verb->add_option("--method", options->method,
                    "exact, fast (floats; of other diffuse BRDFs a few dozen evaluations, whose bound is an estimate that 99 of 100 keep), "
-                   "reference, monte-carlo (samples of the light, with a statistical bound), or a published method's name (diffuse)")
+                   "reference, monte-carlo (samples of the light, with a statistical bound), or a method's name: published ones of diffuse "
+                   "light; of ggx moments, ltc, ltc-two-lobes or "
+                   "ltc-unclipped")
       ->capture_default_str();
   verb->add_option("--samples", options->samples, "Of monte-carlo: samples of each light at each point (default 65536)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32));
@@ -534,6 +557,7 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
       "  echo 0,0,0,0,1,0 | etendue eval kitchen.rig.json --points - --sum\n"
       "  etendue eval street.rig.json --points road.csv --method fast --sum --tolerance 1e-2 --stats\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf ggx --alpha 0.1 --tolerance 1e-3\n"
+      "  etendue eval studio.rig.json --points floor.csv --brdf ggx --alpha 0.1 --lights key --method moments\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf beckmann --alpha 0.05 --alpha-across 0.3 --tangent 1,0,0\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf ggx --alpha 0.2 --fresnel conductor --eta 0.2,0.92,1.1 --k 3.9,2.4,2.1\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf oren-nayar --roughness 0.8 --method fast\n"

@@ -216,13 +216,15 @@ TEST(SpecularLobe, DrawnNormalsFollowTheirDensity) {
         const Facets facets(d, ax, ay);
         const Vec3d v = at(cosine, 0.5);
         // Cells in the components of m across n: rings of equal sin^2, sectors of azimuth.
-        std::vector<double> expected(side * side), drawn(side * side);
+        constexpr std::size_t cells = std::size_t{side} * side;
+        std::vector<double> expected(cells), drawn(cells);
+        const auto cell = [](int ring, int sector) { return static_cast<std::size_t>(ring) * side + static_cast<std::size_t>(sector); };
         for (int r = 0; r < side * fine; ++r) {
           for (int a = 0; a < side * fine; ++a) {
             const double s2 = (r + 0.5) / (side * fine), phi = 2 * pi * (a + 0.5) / (side * fine), z = std::sqrt(1 - s2);
             const Vec3d m{std::sqrt(s2) * std::cos(phi), std::sqrt(s2) * std::sin(phi), z};
             // dm = d(sin^2) dphi / (2 cos)
-            expected[static_cast<std::size_t>(r / fine * side + a / fine)] +=
+            expected[cell(r / fine, a / fine)] +=
                 facets.density(m) * std::max(dot(v, m), 0.0) / facets.seen_area(v) * pi / (side * fine) / (side * fine) / z;
           }
         }
@@ -232,7 +234,7 @@ TEST(SpecularLobe, DrawnNormalsFollowTheirDensity) {
           const double s2 = m.x * m.x + m.y * m.y, turn = std::atan2(m.y, m.x) / (2 * pi);
           const int r = std::min(side - 1, static_cast<int>(s2 * side)),
                     a = std::min(side - 1, static_cast<int>((turn - std::floor(turn)) * side));
-          drawn[static_cast<std::size_t>(r * side + a)] += 1;
+          drawn[cell(r, a)] += 1;
         }
         double chi2 = 0, pooled_expected = 0, pooled_drawn = 0;
         const auto add = [&](double e, double o) { chi2 += (o - e) * (o - e) / e; };

@@ -15,8 +15,8 @@ struct SpecularMethod {
   std::string_view name;    // lower case, words joined by hyphens
   std::string_view source;  // authors, year
   std::string_view note;    // what it approximates, where it breaks
-  // Towards the view, cd/m2. Nothing if the method does not take the emitter or the BRDF: each takes height-correlated GgxLobe and uniform
-  // area lights without a window.
+  // Towards the view, cd/m2. Nothing if the method does not take the emitter or the BRDF: each takes height-correlated round GGX with
+  // Schlick's Fresnel (GgxLobe, or such a SpecularLobe) and uniform area lights without a window.
   std::optional<Rgb> (*luminance)(const Emitter&, const ShadingPoint&) = nullptr;
 };
 

@@ -103,10 +103,12 @@ constexpr double first_layer = 4, layer_growth = 8;
 void add_layers(std::vector<double>& marks, double from, double to, double lowest, double slope, double layer) {
   const double span = std::abs(to - from), sign = to > from ? 1 : -1;
   if (!(lowest < first_layer * layer) || !(slope * span > layer)) return;
-  for (double height = first_layer * layer; height < 1; height *= layer_growth) {
+  double height = first_layer * layer;
+  while (height < 1) {
     const double away = (height - lowest) / slope;
     if (!(away < 0.8 * span)) break;
     marks.push_back(from + sign * away);
+    height *= layer_growth;
   }
 }
 

@@ -127,11 +127,20 @@ Rgb luminance_of(const Emitter& emitter) {
   return sun->illuminance / (pi * sine * sine);
 }
 
+// Height-correlated GGX with Schlick's Fresnel, under either name.
+std::optional<GgxLobe> taken_lobe(const Brdf& brdf) {
+  if (const auto* ggx = std::get_if<GgxLobe>(&brdf)) return ggx->masking == Masking::correlated ? std::optional(*ggx) : std::nullopt;
+  const auto* lobe = std::get_if<SpecularLobe>(&brdf);
+  if (lobe == nullptr || lobe->distribution != Distribution::ggx || lobe->alpha_x != lobe->alpha_y) return std::nullopt;
+  if (lobe->masking != Masking::correlated || lobe->fresnel != Fresnel::schlick || lobe->compensation != nullptr) return std::nullopt;
+  return GgxLobe{lobe->alpha_x, lobe->f0, lobe->f90, lobe->masking};
+}
+
 enum class Form { published, one_cosine, two_cosines };
 
 std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& point, Form form) {
-  const auto* lobe = std::get_if<GgxLobe>(&point.brdf);
-  if (lobe == nullptr || lobe->masking != Masking::correlated || !takes(emitter)) return std::nullopt;
+  const std::optional<GgxLobe> lobe = taken_lobe(point.brdf);
+  if (!lobe || !takes(emitter)) return std::nullopt;
   const ViewFrame frame(point.normal, point.view);
   if (!(frame.cosine > 0)) return Rgb{};
   const LtcLobe fit = ltc_table().at(lobe->alpha, frame.cosine);
@@ -151,8 +160,8 @@ std::optional<Rgb> luminance(const Emitter& emitter, const ShadingPoint& point) 
 }
 
 std::optional<Rgb> moments(const Emitter& emitter, const ShadingPoint& point) {
-  const auto* lobe = std::get_if<GgxLobe>(&point.brdf);
-  if (lobe == nullptr || lobe->masking != Masking::correlated || !takes(emitter)) return std::nullopt;
+  const std::optional<GgxLobe> lobe = taken_lobe(point.brdf);
+  if (!lobe || !takes(emitter)) return std::nullopt;
   return luminance_of(emitter) * by_moments(emitter, point, *lobe);
 }
 
