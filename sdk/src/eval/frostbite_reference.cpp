@@ -102,7 +102,8 @@ double listing_a3_passes(const std::vector<SurfacePart>& passes, const Vec3d& n)
   for (const SurfacePart& part : passes) total += area_of(part);
   for (const SurfacePart& part : passes) {
     const double area = area_of(part);
-    const auto count = static_cast<std::uint32_t>(sample_count_base * (area / total));
+    const double share = area / total;
+    const auto count = share > 0 ? static_cast<std::uint32_t>(sample_count_base * share) : 0U;
     double pass = 0;
     for (std::uint32_t i = 0; i < count; ++i) pass += sampled_illuminance(point_of(part, get_sample(i, count)), n, area);
     sum += pass / count;
