@@ -29,7 +29,7 @@ double disney_albedo(double roughness, double cosine);
 double frostbite_albedo(double roughness, double cosine);
 
 // For SpecularLobe::compensation, of the lobe's facets and masking; its Fresnel term has no part in it. Made in some .1 s (Blinn-Phong 1
-// s); within 5e-7 of directional_albedo() for round GGX and 5e-5 for the other round facets. Stretched ones take seconds: within 2e-5 for
+// s); within 5e-7 of directional_albedo() for round GGX and 5e-5 for the other round facets. Stretched ones take seconds: within 5e-5 for
 // alphas of 1 to .3, 1e-2 for 1 to .1. Null for Phong's, which has no facets.
 std::shared_ptr<const AlbedoCurve> albedo_curve(const SpecularLobe& lobe);
 double albedo(const AlbedoCurve& curve, const Vec3d& direction);
