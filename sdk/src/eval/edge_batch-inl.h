@@ -1,4 +1,4 @@
-// Edges of flat lights in vectors, so that nothing cancels far away; for kernels as rect_batch.cpp.
+// Edges of flat lights in vectors, so that nothing cancels far away; for kernels as polygon_batch.cpp.
 #if defined(ETENDUE_EDGE_BATCH_INL_H) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard, once an instruction set
 #ifdef ETENDUE_EDGE_BATCH_INL_H
 #undef ETENDUE_EDGE_BATCH_INL_H

@@ -109,7 +109,7 @@ HWY_INLINE EdgeSum<V> by_edges(D d, const Framed<V>& f) {
   const V m_y = hn::Mul(f.n_y, f.z), m_x = hn::Mul(f.n_x, f.z);
   const std::array<V, 4> m{hn::NegMulAdd(f.n_z, y0, m_y), hn::MulSub(f.n_z, x1, m_x), hn::MulSub(f.n_z, y1, m_y),
                            hn::NegMulAdd(f.n_z, x0, m_x)};
-  // No term of theirs is larger.
+  // The magnitudes of both terms of m, half way between opposite sides.
   const V most_x = hn::MulAdd(hn::Abs(f.n_z), hn::Abs(f.y), hn::Abs(m_y)), most_y = hn::MulAdd(hn::Abs(f.n_z), hn::Abs(f.x), hn::Abs(m_x));
   const std::array<V, 4> other2{bottom2, hn::Add(right2, z2), top2, hn::Add(left2, z2)};
   const std::array<V, 4> begin{x0, y0, x1, y1}, end{x1, y1, x0, y0};
