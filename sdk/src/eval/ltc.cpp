@@ -1,9 +1,8 @@
 // Linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt 2016): the table, and lights seen through it.
 #include "etendue/ltc.h"
 
-#include "etendue/specular_methods.h"
 #include "illuminance.h"
-#include "specular_moments.h"
+#include "specular_view.h"
 #include "transformed_contour.h"
 
 #include <algorithm>
@@ -115,32 +114,11 @@ struct Covered {
   }
 };
 
-bool takes(const Emitter& emitter) {
-  if (!has_closed_form(emitter)) return false;
-  if (const auto* sun = std::get_if<DistantEmitter>(&emitter.shape)) return sun->radius_rad > 0;
-  return !std::holds_alternative<PunctualEmitter>(emitter.shape) && !std::holds_alternative<LineEmitter>(emitter.shape);
-}
-Rgb luminance_of(const Emitter& emitter) {
-  const auto* sun = std::get_if<DistantEmitter>(&emitter.shape);
-  if (sun == nullptr) return emitter.radiance;
-  const double sine = std::sin(sun->radius_rad);
-  return sun->illuminance / (pi * sine * sine);
-}
-
-// Height-correlated GGX with Schlick's Fresnel, under either name.
-std::optional<GgxLobe> taken_lobe(const Brdf& brdf) {
-  if (const auto* ggx = std::get_if<GgxLobe>(&brdf)) return ggx->masking == Masking::correlated ? std::optional(*ggx) : std::nullopt;
-  const auto* lobe = std::get_if<SpecularLobe>(&brdf);
-  if (lobe == nullptr || lobe->distribution != Distribution::ggx || lobe->alpha_x != lobe->alpha_y) return std::nullopt;
-  if (lobe->masking != Masking::correlated || lobe->fresnel != Fresnel::schlick || lobe->compensation != nullptr) return std::nullopt;
-  return GgxLobe{lobe->alpha_x, lobe->f0, lobe->f90, lobe->masking};
-}
-
 enum class Form { published, one_cosine, two_cosines };
 
 std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& point, Form form) {
-  const std::optional<GgxLobe> lobe = taken_lobe(point.brdf);
-  if (!lobe || !takes(emitter)) return std::nullopt;
+  const std::optional<GgxLobe> lobe = correlated_ggx(point.brdf);
+  if (!lobe || !is_uniform_area_light(emitter)) return std::nullopt;
   const ViewFrame frame(point.normal, point.view);
   if (!(frame.cosine > 0)) return Rgb{};
   const LtcLobe fit = ltc_table().at(lobe->alpha, frame.cosine);
@@ -159,12 +137,6 @@ std::optional<Rgb> luminance(const Emitter& emitter, const ShadingPoint& point) 
   return through_table(emitter, point, form);
 }
 
-std::optional<Rgb> moments(const Emitter& emitter, const ShadingPoint& point) {
-  const std::optional<GgxLobe> lobe = taken_lobe(point.brdf);
-  if (!lobe || !takes(emitter)) return std::nullopt;
-  return luminance_of(emitter) * by_moments(emitter, point, *lobe);
-}
-
 constexpr std::string_view article = "Heitz, Dupuy, Hill and Neubelt 2016, with the table of this library";
 constexpr SpecularMethod methods[] = {
     {"ltc-unclipped", article,
@@ -176,17 +148,10 @@ constexpr SpecularMethod methods[] = {
     {"ltc-two-lobes", article,
      "The same, and a cosine of its own for the part of the lobe that Fresnel's term adds towards grazing: two forms instead of one.",
      luminance<Form::two_cosines>},
-    {"moments", "Etendue",
-     "Exact but for the slow factor of the lobe, which is taken at four places, and for outlines in pieces; no table.", moments},
 };
 
 }  // namespace
 
-std::span<const SpecularMethod> specular_methods() { return methods; }
-
-const SpecularMethod* find_specular_method(std::string_view name) {
-  const auto* found = std::find_if(std::begin(methods), std::end(methods), [&](const SpecularMethod& m) { return m.name == name; });
-  return found == std::end(methods) ? nullptr : found;
-}
+std::span<const SpecularMethod> ltc_methods() { return methods; }
 
 }  // namespace etendue::eval
