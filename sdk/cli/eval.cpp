@@ -31,10 +31,12 @@ namespace {
 using eval::Emitter;
 
 struct Options {
-  std::string asset, points, brdf = "lambert", base_colour = "0.5,0.5,0.5", method = "exact", masking = "correlated", fresnel = "schlick",
-                             eta, k, tangent, lights, mute;
+  std::string asset, points, brdf = "lambert", base_colour = "0.5,0.5,0.5", method = "exact", fresnel = "schlick", eta, k, tangent, lights,
+                             mute;
   ImportOptions import;
-  double alpha = -1, alpha_across = -1, roughness = -1, f0 = 0.04, f90 = 1, tolerance = 1e-4;
+  double alpha = -1, alpha_across = -1, roughness = -1, f0 = 0.04, tolerance = 1e-4;
+  std::optional<double> f90;
+  std::optional<std::string> masking;
   std::optional<std::uint64_t> samples, seed;
   bool sum = false, micro_occlusion = false, passed_on = false;
 };
@@ -93,11 +95,16 @@ Result<eval::Brdf> specular_of(const Options& o, double alpha) {
   lobe.distribution = distributions.at(o.brdf);
   lobe.alpha_x = alpha;
   lobe.alpha_y = o.alpha_across >= 0 ? o.alpha_across : alpha;
-  lobe.masking = maskings.at(o.masking);
+  lobe.masking = maskings.at(o.masking.value_or("correlated"));
   lobe.fresnel = fresnels.at(o.fresnel);
   lobe.f0 = {o.f0, o.f0, o.f0};
-  lobe.f90 = o.micro_occlusion ? eval::micro_occlusion_f90(lobe.f0) : o.f90;
+  lobe.f90 = o.micro_occlusion ? eval::micro_occlusion_f90(lobe.f0) : o.f90.value_or(1);
   const bool exact = lobe.fresnel == eval::Fresnel::dielectric || lobe.fresnel == eval::Fresnel::conductor;
+  if (exact && (o.f90 || o.micro_occlusion))
+    return usage(fmt::format("--f90, --micro-occlusion: expected --fresnel schlick or schlick-gaussian with them, found {}", o.fresnel));
+  if (o.f90 && o.micro_occlusion) return usage("expected --f90 or --micro-occlusion, found both");
+  if (o.masking && lobe.distribution == eval::Distribution::phong)
+    return usage("--masking: expected --brdf ggx, beckmann or blinn-phong, found phong, which has no facets");
   if (!exact && !(o.eta.empty() && o.k.empty())) return usage("--eta, --k: expected --fresnel dielectric or conductor with them");
   if (lobe.alpha_x != lobe.alpha_y && (o.brdf == "blinn-phong" || o.brdf == "phong"))
     return usage(fmt::format("--alpha-across: expected --brdf ggx or beckmann, found {}, which is round", o.brdf));
@@ -125,10 +132,12 @@ Result<eval::Brdf> specular_of(const Options& o, double alpha) {
 
 Result<eval::Brdf> brdf_of(const Options& o, const Rgb& base, double roughness) {
   if (distributions.contains(o.brdf)) return specular_of(o, o.alpha >= 0 ? o.alpha : roughness * roughness);
-  if (o.alpha_across >= 0 || !o.tangent.empty() || o.fresnel != "schlick" || !o.eta.empty() || !o.k.empty() || o.micro_occlusion ||
-      o.passed_on)
+  if (o.alpha_across >= 0 || !o.tangent.empty() || o.fresnel != "schlick" || !o.eta.empty() || !o.k.empty() || o.f90 || o.micro_occlusion ||
+      o.masking || o.passed_on)
     return usage(fmt::format(
-        "--alpha-across, --tangent, --fresnel, --eta, --k, --micro-occlusion, --passed-on: expected a specular --brdf, found {}", o.brdf));
+        "--alpha-across, --tangent, --fresnel, --eta, --k, --f90, --micro-occlusion, --masking, --passed-on: expected --brdf ggx, "
+        "beckmann, blinn-phong or phong with them, found {}",
+        o.brdf));
   if (o.brdf == "lambert") return eval::Brdf{Lambert{{1, 1, 1}}};
   if (o.brdf == "disney") return eval::Brdf{eval::DisneyDiffuse{base, roughness}};
   if (o.brdf == "frostbite") return eval::Brdf{eval::FrostbiteDiffuse{base, roughness}};
@@ -514,14 +523,11 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--alpha", options->alpha, "Roughness squared")->check(CLI::Range(0.0, 1.0));
   verb->add_option("--roughness", options->roughness, "Perceptually linear (default 0.5)")->check(CLI::Range(0.0, 1.0));
   verb->add_option("--f0", options->f0, "Reflectance at normal incidence")->capture_default_str()->check(CLI::Range(0.0, 1.0));
-  verb->add_option("--f90", options->f90, "Of a lobe: reflectance at grazing incidence")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--f90", options->f90, "Of a lobe: reflectance at grazing incidence (default 1)")->check(CLI::Range(0.0, 1.0));
   verb->add_flag("--micro-occlusion", options->micro_occlusion, "Of a lobe: f90 = min(50 f0, 1)");
   verb->add_flag("--passed-on", options->passed_on, "Of a lobe: with the light that facets pass on to each other");
   verb->add_option("--masking", options->masking,
-                   "Of a lobe: correlated, separable (both Smith's), schlick-direct or schlick-image (Karis')")
-      ->capture_default_str()
+                   "Of a lobe: correlated (default), separable (both Smith's), schlick-direct or schlick-image (Karis')")
       ->check(CLI::IsMember(names_of(maskings)));
   verb->add_option("--fresnel", options->fresnel, "Of a lobe: schlick, schlick-gaussian (Karis'), dielectric or conductor (exact)")
       ->capture_default_str()

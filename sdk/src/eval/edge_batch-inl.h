@@ -126,23 +126,19 @@ HWY_INLINE Sides<M> sides_of(D d, V z, V r2, bool two_sided) {
 
 // What may cancel in a flat light's value.
 //   Seen edge-on, the part of the sum that is not along its plane is the small rest of two that are not (`shine`), and its height has few
-//   digits itself. What of the `longer` side's square is more than the area does not cancel in the sum's rounding; less of it counts where
-//   opposite edges are `whole`.
+//   digits itself. What of the `longer` side's square is more than the area does not cancel in the sum's rounding.
 //   Where an edge or a corner is close, what is seen turns with the direction to it, and a rounding of the point turns that: by one over
 //   the distance of the edge that passes beside the point (`closest`), or of the closest end (`least`, of all ends' (a^2 - r^2) / r^2).
-template <class V, class M>
+template <class V>
 struct Cancellation {
   V value, n_z, z, r2, per_r2, area, longer, closest, least;
-  M whole;
 };
 // Where floats are not enough. An estimate, in units of 1e-6, aimed at .7 of LightBatch's bound; its factors are no proof but were set by
 // the search of tests/stress, which at random finds nothing over the bound and uphill now and then a case a little over it.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
-HWY_INLINE M cancels(D d, const Cancellation<V, M>& c) {
+HWY_INLINE M cancels(D d, const Cancellation<V>& c) {
   if constexpr (in_floats<D>) {
-    const V inverse_r = near_inverse_sqrt(d, c.r2), square = hn::Mul(c.longer, c.longer);
-    const V of_whole = hn::MulAdd(hn::Mul(c.longer, inverse_r), number(d, 0.4), number(d, 0.02));
-    const V bulk = hn::Mul(square, hn::IfThenElse(c.whole, of_whole, number(d, 0.2)));
+    const V inverse_r = near_inverse_sqrt(d, c.r2), bulk = hn::Mul(hn::Mul(c.longer, c.longer), number(d, 0.2));
     // |n.(a x unit vector along an edge)| is no more than |n_z| r + |z|.
     const V leaning = hn::Abs(c.n_z), across = hn::MulAdd(hn::Abs(c.z), inverse_r, leaning);
     const V shine = hn::Mul(hn::MulAdd(bulk, across, hn::Mul(c.area, leaning)), c.per_r2);

@@ -1,34 +1,22 @@
 #include "etendue/far_light.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
+
+#include "quadrature.h"
 
 namespace etendue::eval {
 namespace {
 
-// Places in [-1, 1] and their share.
-struct Node {
-  double at, weight;
-};
-constexpr std::array<Node, 1> one{{{0, 1}}};
-constexpr std::array<Node, 2> two{{{-0.57735026918962576, 0.5}, {0.57735026918962576, 0.5}}};
-constexpr std::array<Node, 3> three{{{-0.77459666924148338, 5.0 / 18}, {0, 8.0 / 18}, {0.77459666924148338, 5.0 / 18}}};
-constexpr std::array<Node, 4> four{{{-0.86113631159405258, 0.17392742256872693},
-                                    {-0.33998104358485626, 0.32607257743127307},
-                                    {0.33998104358485626, 0.32607257743127307},
-                                    {0.86113631159405258, 0.17392742256872693}}};
-
 // The integral of h g / r^4 over the area, h the point's height above the light's plane, the same for all of it, and g = n.p.
 template <class T>
-T integrate(std::span<const Node> nodes, const Parallelogram<T>& light, const Vec3<T>& normal) {
-  const T height_area = -4 * dot(cross(light.half_x, light.half_y), light.centre);
+T integrate(std::span<const GaussNode> nodes, const Parallelogram<T>& light, const Vec3<T>& normal) {
+  const T height_area = -dot(cross(light.half_x, light.half_y), light.centre);
   if (!(height_area > 0)) return 0;
   T sum = 0;
-  for (const Node& u : nodes) {
-    for (const Node& v : nodes) {
-      const Vec3<T> p = light.centre + (light.half_x * static_cast<T>(u.at) + light.half_y * static_cast<T>(v.at));
+  for (const GaussNode& u : nodes) {
+    for (const GaussNode& v : nodes) {
+      const Vec3<T> p = light.centre + (light.half_x * static_cast<T>(u.x) + light.half_y * static_cast<T>(v.x));
       const T inverse = 1 / dot(p, p);
       sum += static_cast<T>(u.weight * v.weight) * (dot(normal, p) * inverse) * (height_area * inverse);
     }
@@ -40,15 +28,15 @@ template <class T>
 T by_rule(FarRule rule, const Parallelogram<T>& light, const Vec3<T>& normal) {
   switch (rule) {
     case FarRule::point:
-      return integrate<T>(one, light, normal);
+      return integrate<T>(gauss1, light, normal);
     case FarRule::gauss2:
-      return integrate<T>(two, light, normal);
+      return integrate<T>(gauss2, light, normal);
     case FarRule::gauss3:
-      return integrate<T>(three, light, normal);
+      return integrate<T>(gauss3, light, normal);
     case FarRule::gauss4:
       break;
   }
-  return integrate<T>(four, light, normal);
+  return integrate<T>(gauss4, light, normal);
 }
 
 // Of the rule with n nodes a side: e_k is what it misses of the mean of u^k over [-1, 1], c_k = (k + 3)(k + 2)(k + 1) / 6 the largest value

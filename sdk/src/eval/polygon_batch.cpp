@@ -174,7 +174,7 @@ HWY_INLINE V over_polygon(D d, const PlacedPolygon& light, const Point<V>& point
   const Sides<M> side = sides_of(d, middle.z, r2, light.white.two_sided);
   const M above = hn::Gt(highest, zero), lit = hn::And(side.seen, above);
   const V area = number(d, outline.area), longer = number(d, outline.longer);
-  const Cancellation<V, M> terms{value, n.z, middle.z, r2, per_r2, area, longer, sum.closest, sum.least, none};
+  const Cancellation<V> terms{value, n.z, middle.z, r2, per_r2, area, longer, sum.closest, sum.least};
   doubtful = hn::Or(hn::And(side.unsure, above), hn::And(lit, hn::Or(sum.unsure, cancels(d, terms))));
   return hn::IfThenElseZero(lit, hn::Max(hn::IfThenElse(side.front, value, hn::Neg(value)), zero));
 }

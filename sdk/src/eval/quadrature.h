@@ -8,6 +8,13 @@ namespace etendue::eval {
 struct GaussNode {
   double x, weight;
 };
+inline constexpr std::array<GaussNode, 1> gauss1{{{0, 2}}};
+inline constexpr std::array<GaussNode, 2> gauss2{{{-0.57735026918962576, 1}, {0.57735026918962576, 1}}};
+inline constexpr std::array<GaussNode, 3> gauss3{{{-0.77459666924148338, 5.0 / 9}, {0, 8.0 / 9}, {0.77459666924148338, 5.0 / 9}}};
+inline constexpr std::array<GaussNode, 4> gauss4{{{-0.86113631159405258, 0.34785484513745386},
+                                                  {-0.33998104358485626, 0.65214515486254614},
+                                                  {0.33998104358485626, 0.65214515486254614},
+                                                  {0.86113631159405258, 0.34785484513745386}}};
 const std::array<GaussNode, 24>& gauss24();
 
 // `gauss` is the weight in the embedded Gauss rule of n nodes, 0 for the nodes that Kronrod added (Kronrod 1965). `odd` is `weight` times

@@ -94,7 +94,7 @@ class RectKernel {
   HWY_INLINE V far_off(D d, const Framed<V>& f, V distance2, M& doubtful) const {
     const V up = hn::MulAdd(f.x, f.n_x, hn::MulAdd(f.y, f.n_y, hn::Mul(f.z, f.n_z)));
     const V spread = hn::MulAdd(hn::Abs(f.n_x), f.half_x, hn::Mul(hn::Abs(f.n_y), f.half_y));
-    const V value = by_nodes(d, f, four_nodes, [&](V square) ETENDUE_INLINE_LAMBDA { return inverse(d, square); });
+    const V value = by_nodes(d, f, gauss4, [&](V square) ETENDUE_INLINE_LAMBDA { return inverse(d, square); });
     const M sure = hn::Ge(hn::Mul(f.z, f.z), hn::Mul(distance2, number(d, 0.025 * 0.025)));
     const M finite = hn::Lt(hn::Abs(up), number(d, 1e18)), enough = hn::Ge(hn::Abs(up), spread);
     const M dark = dark_side(d, f);

@@ -297,11 +297,11 @@ std::size_t RectBy(BatchRule rule, const FlatRect& light, const PointBatch& poin
     case BatchRule::hill_cheap:
       return by([](const Seen& s) ETENDUE_INLINE_LAMBDA { return hill_cheap(s); });
     case BatchRule::nodes_1:
-      return ours([](const Framed<Lanes>& f) ETENDUE_INLINE_LAMBDA { return by_nodes(Floats(), f, one_node, near_inverse); });
+      return ours([](const Framed<Lanes>& f) ETENDUE_INLINE_LAMBDA { return by_nodes(Floats(), f, gauss1, near_inverse); });
     case BatchRule::nodes_2:
-      return ours([](const Framed<Lanes>& f) ETENDUE_INLINE_LAMBDA { return by_nodes(Floats(), f, two_nodes, near_inverse); });
+      return ours([](const Framed<Lanes>& f) ETENDUE_INLINE_LAMBDA { return by_nodes(Floats(), f, gauss2, near_inverse); });
     case BatchRule::nodes_3:
-      return ours([](const Framed<Lanes>& f) ETENDUE_INLINE_LAMBDA { return by_nodes(Floats(), f, three_nodes, near_inverse); });
+      return ours([](const Framed<Lanes>& f) ETENDUE_INLINE_LAMBDA { return by_nodes(Floats(), f, gauss3, near_inverse); });
     default:
       return ours([](const Framed<Lanes>& f) ETENDUE_INLINE_LAMBDA { return positive(by_edges(Floats(), f).value); });
   }

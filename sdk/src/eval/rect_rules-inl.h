@@ -8,6 +8,7 @@
 #endif
 
 #include "eval/light_batch-inl.h"
+#include "eval/quadrature.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etendue::eval::HWY_NAMESPACE {
@@ -17,38 +18,26 @@ struct Framed {
   V x, y, z, n_x, n_y, n_z;  // of the centre and the surface's normal; the light faces along z, z < 0 is its front
   V half_x, half_y;
 };
-// Gauss and Legendre's places in [-1, 1] and shares.
-struct Node {
-  double at, share;
-};
-constexpr std::array<Node, 1> one_node{{{0, 1}}};
-constexpr std::array<Node, 2> two_nodes{{{-0.57735026918962576, 0.5}, {0.57735026918962576, 0.5}}};
-constexpr std::array<Node, 3> three_nodes{{{-0.77459666924148338, 5.0 / 18}, {0, 8.0 / 18}, {0.77459666924148338, 5.0 / 18}}};
-constexpr std::array<Node, 4> four_nodes{{{-0.86113631159405258, 0.17392742256872693},
-                                          {-0.33998104358485626, 0.32607257743127307},
-                                          {0.33998104358485626, 0.32607257743127307},
-                                          {0.86113631159405258, 0.17392742256872693}}};
-
 // The integral of h n.p / r^4 over the area, n.p at every node no less than 0. over(r^2): its inverse.
 template <std::size_t N, class D, class V = hn::Vec<D>, class Inverse>
-HWY_INLINE V by_nodes(D d, const Framed<V>& f, const std::array<Node, N>& nodes, Inverse over) {
+HWY_INLINE V by_nodes(D d, const Framed<V>& f, const std::array<GaussNode, N>& nodes, Inverse over) {
   std::array<V, N> y2{}, y_up{};
   const V z2 = hn::Mul(f.z, f.z), z_up = hn::Mul(f.z, f.n_z);
   each<N>([&](auto j) ETENDUE_INLINE_LAMBDA {
-    const V y = hn::MulAdd(number(d, nodes[j].at), f.half_y, f.y);
+    const V y = hn::MulAdd(number(d, nodes[j].x), f.half_y, f.y);
     y2[j] = hn::MulAdd(y, y, z2), y_up[j] = hn::MulAdd(y, f.n_y, z_up);
   });
   V sum = number(d, 0);
   each<N>([&](auto i) ETENDUE_INLINE_LAMBDA {
-    const V x = hn::MulAdd(number(d, nodes[i].at), f.half_x, f.x);
+    const V x = hn::MulAdd(number(d, nodes[i].x), f.half_x, f.x);
     V row = number(d, 0);
     each<N>([&](auto j) ETENDUE_INLINE_LAMBDA {
       const V near = over(hn::MulAdd(x, x, y2[j])), up = hn::Max(hn::MulAdd(x, f.n_x, y_up[j]), number(d, 0));
-      row = hn::MulAdd(hn::Mul(hn::Mul(near, near), number(d, nodes[j].share)), up, row);
+      row = hn::MulAdd(hn::Mul(hn::Mul(near, near), number(d, nodes[j].weight)), up, row);
     });
-    sum = hn::MulAdd(row, number(d, nodes[i].share), sum);
+    sum = hn::MulAdd(row, number(d, nodes[i].weight), sum);
   });
-  return hn::Mul(hn::Mul(hn::Mul(number(d, -4), f.z), hn::Mul(f.half_x, f.half_y)), sum);
+  return hn::Mul(hn::Mul(hn::Neg(f.z), hn::Mul(f.half_x, f.half_y)), sum);
 }
 
 // theta / sin(theta) in t = 1 - cos(theta) up to a right angle: of all polynomials of their degree that are 1 at 0 the one with the least

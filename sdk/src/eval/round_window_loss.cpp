@@ -163,9 +163,8 @@ double along_side(double p, double q, double g2, double x0, double x1, const Tak
   if ((q == 0 && p <= 0) || !(x0 < x1)) return 0;
   if (g2 >= 1) return inverse_fourth(p, q, g2, x0, x1);
   const double reach = std::sqrt(1 - g2), from = std::clamp(-reach, x0, x1), to = std::clamp(reach, x0, x1);
-  static constexpr std::array<GaussNode, 3> nodes{{{-0.7745966692414834, 5.0 / 9}, {0, 8.0 / 9}, {0.7745966692414834, 5.0 / 9}}};
   double sum = 0;
-  for (const GaussNode& node : nodes) {
+  for (const GaussNode& node : gauss3) {
     const double x = 0.5 * (from + to) + 0.5 * (to - from) * node.x;
     sum += 0.5 * (to - from) * node.weight * (p + q * x) * taken.per_fourth(g2 + x * x);
   }
