@@ -20,6 +20,7 @@
 #include "etendue/published.h"
 #include "etendue/render.h"
 #include "etendue/rig_batch.h"
+#include "etendue/specular_light.h"
 #include "etendue/specular_methods.h"
 #include "eval_points.h"
 #include "limits.h"
@@ -39,6 +40,7 @@ struct Options {
   std::optional<std::string> masking;
   std::optional<std::uint64_t> samples, seed;
   bool sum = false, micro_occlusion = false, passed_on = false;
+  bool tolerance_alone = false;  // named, and no method
 };
 
 // Of one light at one point: lux or cd/m2, an absolute bound of the error in the worst channel, and how it was found.
@@ -170,6 +172,7 @@ class Evaluator {
   eval::ShadingPoint shading_point(const PointRow& point) const;
   Answer by_reference(const Emitter& emitter, const PointRow& point) const;
   Answer by_rule(const Emitter& emitter, const PointRow& point) const;
+  std::optional<Answer> adaptively(const Emitter& emitter, const PointRow& point) const;
   Answer by_samples(const Emitter& emitter, const PointRow& point) const;
 
   bool lambert_ = true, fast_ = false;
@@ -177,7 +180,9 @@ class Evaluator {
   const eval::DiffuseRule* rule_ = nullptr;         // of other diffuse BRDFs
   const eval::SpecularMethod* specular_ = nullptr;  // of specular lobes
   std::optional<eval::Sampling> sampling_;
-  bool closed_ = true;  // closed forms where there are any
+  bool adaptive_ = false;        // of specular lobes, where it takes the light
+  bool named_adaptive_ = false;  // every light has to be one that it takes
+  bool closed_ = true;           // closed forms where there are any
   eval::Brdf brdf_;
   Vec3d tangent_;
   double tolerance_ = 1e-4;
@@ -207,8 +212,10 @@ Result<Evaluator> Evaluator::of(const Options& o) {
   }
   if (o.samples || o.seed)
     return usage(fmt::format("--{}: expected --method monte-carlo with it, found {}", o.samples ? "samples" : "seed", o.method));
-  if (o.method == "exact" || o.method == "reference") {
-    e.closed_ = o.method == "exact";
+  e.adaptive_ = distributions.contains(o.brdf) && (o.tolerance_alone || o.method == "adaptive");
+  e.named_adaptive_ = e.adaptive_ && !o.tolerance_alone;
+  if (o.method == "exact" || o.method == "reference" || e.adaptive_) {
+    e.closed_ = o.method != "reference";
     return e;
   }
   if (!e.lambert_) {
@@ -241,6 +248,7 @@ Status Evaluator::choose_rule(const Options& o) {
   } else if (distributions.contains(o.brdf)) {
     specular_ = eval::find_specular_method(o.method);
     if (specular_ != nullptr) return Done{};
+    names = ", adaptive";
     list(eval::specular_methods());
   }
   return usage(fmt::format("--method: expected exact, reference, monte-carlo{} with --brdf {}, found '{}'", names, o.brdf, o.method));
@@ -260,6 +268,15 @@ Status Evaluator::accepts(const Emitter& emitter, const std::string& name) const
       !(has_closed_form(emitter) && !is_window(emitter.window) && published_->illuminance(emitter, probe.position, probe.normal)))
     return refused(published_->name);
   if (rule_ != nullptr && !rule_->luminance(emitter, shading_point(probe))) return refused(rule_->name);
+  if (named_adaptive_ && !adaptively(emitter, probe)) {
+    return Error{"METHOD_UNSUPPORTED",
+                 fmt::format("light '{}': expected an area light without pattern or range and round GGX of Schlick's Fresnel, which "
+                             "adaptive takes",
+                             name),
+                 {},
+                 "--lights chooses some",
+                 {}};
+  }
   if (specular_ != nullptr && !specular_->luminance(emitter, shading_point(probe))) {
     return Error{
         "METHOD_UNSUPPORTED",
@@ -285,6 +302,12 @@ Answer Evaluator::by_reference(const Emitter& emitter, const PointRow& p) const 
   return {estimate.value * scale, largest(estimate.error) * scale, "reference"};
 }
 
+std::optional<Answer> Evaluator::adaptively(const Emitter& emitter, const PointRow& p) const {
+  const std::optional<eval::Estimate> estimate = eval::specular_luminance(emitter, shading_point(p), tolerance_);
+  if (!estimate) return std::nullopt;
+  return Answer{estimate->value, largest(estimate->error), "adaptive"};
+}
+
 Answer Evaluator::by_rule(const Emitter& emitter, const PointRow& p) const {
   const eval::ShadingPoint point = shading_point(p);
   if (rule_ == nullptr && specular_ == nullptr) {
@@ -306,6 +329,8 @@ Answer Evaluator::by_samples(const Emitter& emitter, const PointRow& p) const {
 
 Answer Evaluator::operator()(const Emitter& emitter, const PointRow& p) const {
   if (sampling_) return by_samples(emitter, p);
+  if (adaptive_)
+    if (const std::optional<Answer> answer = adaptively(emitter, p)) return *answer;
   if (published_ != nullptr) {
     // What a published approximation is off by is measured here, against the closed form.
     const std::optional<double> sr = published_->illuminance(emitter, p.position, p.normal);
@@ -538,21 +563,24 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
       ->check(CLI::Range(0.0, 1.0));
   verb->add_option("--tangent", options->tangent, "x,y,z: along it alpha is --alpha; made perpendicular to each normal");
   verb->add_option("--base-colour", options->base_colour, "r,g,b, linear")->capture_default_str();
-  verb->add_option("--method", options->method,
-                   "exact, fast (floats; of other diffuse BRDFs a few dozen evaluations, whose bound is an estimate that 99 of 100 keep), "
-                   "reference, monte-carlo (samples of the light, with a statistical bound), or a method's name: published ones of diffuse "
-                   "light; of ggx moments, ltc, ltc-two-lobes or "
-                   "ltc-unclipped")
-      ->capture_default_str();
+  const CLI::Option* const method =
+      verb->add_option(
+              "--method", options->method,
+              "exact, fast (floats; of other diffuse BRDFs a few dozen evaluations, whose bound is an estimate that 99 of 100 keep), "
+              "reference, monte-carlo (samples of the light, with a statistical bound), or a method's name: published ones of diffuse "
+              "light; of ggx adaptive (to --tolerance, by the fewest evaluations; taken of itself where a "
+              "tolerance is named and no method), moments, ltc, ltc-two-lobes or ltc-unclipped")
+          ->capture_default_str();
   verb->add_option("--samples", options->samples, "Of monte-carlo: samples of each light at each point (default 65536)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32));
   verb->add_option("--seed", options->seed, "Of monte-carlo: the same answers for the same seed (default 1)");
-  verb->add_option(
-          "--tolerance", options->tolerance,
-          "Where nothing is exact: error at most this part of the value. With --sum, of lambert: lights that are below it are left "
-          "out, from 1e-6 on; --stats counts them")
-      ->capture_default_str()
-      ->check(CLI::Range(1e-9, 0.1));
+  const CLI::Option* const tolerance =
+      verb->add_option(
+              "--tolerance", options->tolerance,
+              "Where nothing is exact: error at most this part of the value. With --sum, of lambert: lights that are below it are left "
+              "out, from 1e-6 on; --stats counts them")
+          ->capture_default_str()
+          ->check(CLI::Range(1e-9, 0.1));
   verb->add_flag("--sum", options->sum, "One row a point: all lights together");
   verb->add_option("--lights", options->lights, "Only these lights, by name: a,b");
   verb->add_option("--mute", options->mute, "All but these lights");
@@ -569,7 +597,10 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
       "  etendue eval studio.rig.json --points floor.csv --brdf oren-nayar --roughness 0.8 --method fast\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf standard --method monte-carlo --samples 1000000 --seed 7\n"
       "  etendue eval studio.rig.json --points floor.csv --lights key --method frostbite-12");
-  verb->callback([&common, &run, options] { run = [&common, options] { return run_eval(common, *options); }; });
+  verb->callback([&common, &run, options, method, tolerance] {
+    options->tolerance_alone = method->count() == 0 && tolerance->count() > 0;
+    run = [&common, options] { return run_eval(common, *options); };
+  });
 }
 
 }  // namespace etendue::cli

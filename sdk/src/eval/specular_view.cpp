@@ -13,7 +13,7 @@ std::optional<GgxLobe> correlated_ggx(const Brdf& brdf) {
 }
 
 bool is_uniform_area_light(const Emitter& emitter) {
-  if (!has_closed_form(emitter)) return false;
+  if (!has_closed_form(emitter) || is_window(emitter.window)) return false;
   if (const auto* sun = std::get_if<DistantEmitter>(&emitter.shape)) return sun->radius_rad > 0;
   return !std::holds_alternative<PunctualEmitter>(emitter.shape) && !std::holds_alternative<LineEmitter>(emitter.shape);
 }

@@ -1,0 +1,240 @@
+#include "lobe_cells.h"
+
+#include "fresnel.h"
+#include "microfacet.h"
+
+#include <cmath>
+
+namespace etendue::eval {
+
+DiskLobe::DiskLobe(const GgxLobe& lobe, const Vec3d& v)
+    : alpha(std::max(lobe.alpha, min_alpha)),
+      masking(lobe.masking),
+      view(v),
+      view_root(std::sqrt(v.z * v.z + alpha * alpha * (1 - v.z * v.z))),
+      k(schlick_masking_k(lobe.masking, alpha)) {}
+
+LobeArc::Place LobeArc::at(const DiskLobe& lobe, double tau) const {
+  const double per = 1 / (1 + tau * tau), cs = (1 - tau * tau) * per, sn = 2 * tau * per;
+  const Vec3d b = centre + u * cs + v * sn;
+  Vec3d l = b, speed = (v * cs - u * sn) * (2 * per);
+  if (!unit) {
+    const double inverse = 1 / length(b);
+    l = b * inverse;
+    speed = (speed - l * dot(l, speed)) * inverse;
+  }
+  const Vec3d h = lobe.view + l;
+  const double over = 1 / (lobe.alpha * h.z);
+  return {{h.x * over, h.y * over}, (h.x * speed.y - h.y * speed.x) * over * over};
+}
+
+double LobeArc::height(double tau) const {
+  const double per = 1 / (1 + tau * tau);
+  const Vec3d b = centre + u * ((1 - tau * tau) * per) + v * (2 * tau * per);
+  return unit ? b.z : b.z / length(b);
+}
+
+namespace {
+
+// P_n(x) and P_{n-1}(x), Legendre's, by their recurrence.
+struct Legendre {
+  double last, before;
+};
+Legendre legendre(std::size_t n, double x) {
+  Legendre p{n == 0 ? 1 : x, 1};
+  for (std::size_t k = 2; k <= n; ++k) {
+    const auto degree = static_cast<double>(k);
+    p = {((2 * degree - 1) * x * p.last - (degree - 1) * p.before) / degree, p.last};
+  }
+  return p;
+}
+
+// Gauss and Legendre's rule on [0, 1]. high[k] is 2 d + 1 times P_d, d = N - 1 - k: sums of weighted values with them are the coefficients
+// of the highest degrees that the rule can tell, in the same unit as the sum of the weighted values itself.
+constexpr std::size_t told = 4;
+template <std::size_t N>
+struct Gauss {
+  std::array<double, N> x{}, weight{};
+  std::array<std::array<double, N>, told> high{};
+  Gauss() {
+    constexpr double n = N;
+    for (std::size_t i = 0; i < N; ++i) {
+      // Newton's steps from Tricomi's first guess at a zero; P_n' = n (x P_n - P_{n-1}) / (x^2 - 1).
+      double at = std::cos(pi * (static_cast<double>(i) + 0.75) / (n + 0.5)), slope = 1;
+      for (int turn = 0; turn < 6; ++turn) {
+        const Legendre p = legendre(N, at);
+        slope = n * (at * p.last - p.before) / (at * at - 1);
+        at -= p.last / slope;
+      }
+      x[i] = 0.5 * (1 + at);
+      weight[i] = 1 / ((1 - at * at) * slope * slope);
+      for (std::size_t k = 0; k < told; ++k) high[k][i] = (2 * static_cast<double>(N - 1 - k) + 1) * legendre(N - 1 - k, at).last;
+    }
+  }
+};
+
+template <std::size_t N>
+const Gauss<N>& gauss() {
+  static const Gauss<N> rule;
+  return rule;
+}
+
+double masked(const DiskLobe& lobe, double nl) {
+  const double root = std::sqrt(nl * nl + lobe.alpha * lobe.alpha * (1 - nl * nl));
+  switch (lobe.masking) {
+    case Masking::correlated:
+      return 1 / (2 * (nl * lobe.view_root + lobe.view.z * root));
+    case Masking::separable:
+      return 1 / ((lobe.view.z + lobe.view_root) * (nl + root));
+    default:
+      return 1 / (4 * schlick_seen_area(lobe.view.z, lobe.k) * schlick_seen_area(nl, lobe.k));
+  }
+}
+
+constexpr double far_out = 0.25;
+
+// vm = view.m, m2 = |m|^2: with the half vector h along (m.x, m.y, 1), v.h / n.h = vm + v.z and n.l = 2 v.h n.h - v.z.
+LobeWeight weight_at(const DiskLobe& lobe, double vm, double m2) {
+  const double c = vm + lobe.view.z, per_m = 1 / (1 + m2), nl = std::max((2 * vm + lobe.view.z * (1 - m2)) * per_m, 0.0);
+  return {4 * nl * std::max(c, 0.0) * masked(lobe, nl), schlick_weight(c * std::sqrt(per_m))};
+}
+
+// From the coefficients of the four highest degrees to the rule's error. Where they fall like rho^-k the rule errs by what they are at 2 N:
+// rho^-2 is the larger of the highest two over the larger of the two before, and the highest are followed to N + 1 degrees further. A power
+// less is taken here (2, 5/2 and 4 of 5/2, 7/2 and 11/2), and where all begins at once the square of the highest: rho^(2 - 2 N).
+struct Tail {
+  std::array<double, told> coefficient{};
+  double size = 0;
+};
+template <std::size_t N>
+double left(const Tail& t) {
+  if (!(t.size > 0)) return 0;
+  const double high = std::max(t.coefficient[0], t.coefficient[1]), low = std::max(t.coefficient[2], t.coefficient[3]);
+  const double r = high < low ? high / low : 1, a = t.coefficient[0] / t.size;
+  if constexpr (N == 4) return std::min(high, std::max(high * r * r, t.size * a * a * std::sqrt(a)));
+  if constexpr (N == 6) return std::min(high, high * r * r * std::sqrt(r));
+  return std::min(high, high * (r * r) * (r * r));
+}
+template <std::size_t N>
+void add(Tail& t, const Gauss<N>& g, const double* row, std::size_t stride) {
+  for (std::size_t k = 0; k < told; ++k) {
+    double sum = 0;
+    for (std::size_t i = 0; i < N; ++i) sum += row[i * stride] * g.high[k][i];
+    t.coefficient[k] += std::abs(sum);
+  }
+}
+
+// 1 - r^2 at the radius that p stands for.
+double outside(double p) {
+  const double less = (1 - p) * (1 + p), more = 1 / (1 + p * p);
+  return less * less * more * more;
+}
+
+template <std::size_t N>
+void by_gauss(const DiskLobe& lobe, const LobeArc& arc, const LobeFan& fan, LobeCell& cell) {
+  const Gauss<N>& g = gauss<N>();
+  const double base = fan.base;
+  std::array<std::array<double, N>, N> plain{}, risen{};
+  std::array<double, N> area{}, turns{};
+  const double x_span = cell.x1 - cell.x0, t_span = cell.t1 - cell.t0;
+  // Away from the middle the azimuth may turn fast where the outline is far out: of what no longer hangs on p it takes the exact turn.
+  const bool far = base > 0 || cell.x0 >= far_out || cell.x1 <= -far_out;
+  const Vec2d from = arc.at(lobe, arc.tau_of(cell.x0)).q, to = arc.at(lobe, arc.tau_of(cell.x1)).q;
+  const double turn = std::atan2(from.x * to.y - from.y * to.x, from.x * to.x + from.y * to.y);
+  const auto p_at = [&](double t, double p1) { return base + t * (p1 - base); };
+  const double all = outside(p_at(cell.t0, 1)) - outside(p_at(cell.t1, 1));
+  // Along one ray from the base: what is in it of the remainder, a turn of the azimuth.
+  const auto along = [&](const Vec2d& q, double factor, double* plain_row, double* risen_row) {
+    const double q2 = q.x * q.x + q.y * q.y, per_root = 1 / (1 + std::sqrt(1 + q2)), q_length = std::sqrt(q2), p1 = q_length * per_root;
+    const double per_q = q_length > 0 ? 1 / q_length : 0;
+    const double row = factor * (base > 0 ? (p1 - base) * per_q : per_root) * 4 * t_span / pi;
+    const double vm_x = lobe.view.x * q.x + lobe.view.y * q.y;
+    for (std::size_t j = 0; j < N; ++j) {
+      const double t = cell.t0 + t_span * g.x[j];
+      // p over |q|
+      const double ratio = base > 0 ? p_at(t, p1) * per_q : t * per_root;
+      const double p = ratio * q_length, less = (1 - p) * (1 + p), more = 1 / (1 + p * p);
+      const double stretch = 2 * ratio / less * lobe.alpha;  // slope m = stretch q
+      const LobeWeight at = weight_at(lobe, stretch * vm_x, stretch * stretch * q2);
+      const double here = row * g.weight[j] * ratio * less * more * more * more;
+      plain_row[j] = here * (at.shape * (1 - at.w) - fan.level.plain), risen_row[j] = here * (at.shape * at.w - fan.level.risen);
+    }
+  };
+  cell.turned = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    const double x = cell.x0 + x_span * g.x[i], inner = 1 / ((1 - x) * (1 + x));
+    const LobeArc::Place place = arc.at(lobe, arc.kappa * x * inner);
+    const double weight = g.weight[i] * x_span * arc.kappa * (1 + x * x) * inner * inner * place.turn;
+    const double q2 = place.q.x * place.q.x + place.q.y * place.q.y, per_root = 1 / (1 + std::sqrt(1 + q2)), p1 = std::sqrt(q2) * per_root;
+    turns[i] = q2 > 0 ? weight / q2 : 0;
+    cell.turned += turns[i];
+    if (far) {
+      area[i] = turns[i] * (outside(p_at(cell.t0, p1)) - outside(p_at(cell.t1, p1)) - all) / (2 * pi);
+    } else {
+      // r / q = 2 (p / q) / (1 + p^2)
+      const auto r_over_q = [&](double t) { return 2 * t * per_root / (1 + t * t * p1 * p1); };
+      const double outer = r_over_q(cell.t1), within = r_over_q(cell.t0);
+      area[i] = weight * (outer - within) * (outer + within) / (2 * pi);
+    }
+    along(place.q, weight, plain[i].data(), risen[i].data());
+  }
+  Risen missed;
+  if (const double off = std::abs(turn - cell.turned); far && off > 1e-14) {
+    std::array<double, N> plain_row{}, risen_row{};
+    for (const double x : {cell.x0, cell.x1}) {
+      const Vec2d q = arc.at(lobe, arc.tau_of(x)).q;
+      along(q, q.x * q.x + q.y * q.y, plain_row.data(), risen_row.data());
+      double plain_sum = 0, risen_sum = 0;
+      for (std::size_t j = 0; j < N; ++j) plain_sum += plain_row[j], risen_sum += risen_row[j];
+      missed.plain = std::max(missed.plain, off * std::abs(plain_sum)), missed.risen = std::max(missed.risen, off * std::abs(risen_sum));
+    }
+  }
+  double area_sum = 0;
+  Tail area_tail;
+  add(area_tail, g, area.data(), 1);
+  for (const double a : area) area_sum += a, area_tail.size += std::abs(a);
+  double area_error = left<N>(area_tail);
+  // Nor can the rule be right where it has not seen all of the turn, of which every ray has some area.
+  if (!far) {
+    double least = 1;
+    for (std::size_t i = 0; i < N; ++i) least = std::min(least, std::abs(area[i]) / std::max(std::abs(turns[i]), 1e-300));
+    area_error = std::max(area_error, least * std::abs(turn - cell.turned));
+  }
+  if (far) area_sum += turn * all / (2 * pi);
+  const auto judge = [&](const std::array<std::array<double, N>, N>& f, double level, double ends, double& value, double& error,
+                         double& along_x, double& along_t) {
+    double sum = 0;
+    Tail x, t;
+    for (std::size_t i = 0; i < N; ++i) {
+      add(t, g, f[i].data(), 1);
+      add(x, g, &f[0][i], N);
+      for (const double v : f[i]) sum += v, x.size += std::abs(v);
+    }
+    t.size = x.size;
+    along_x = left<N>(x) + level * area_error + ends, along_t = left<N>(t);
+    value = sum + level * area_sum, error = along_x + along_t + 1e-15 * x.size;
+  };
+  double px = 0, pt = 0, rx = 0, rt = 0;
+  judge(plain, fan.level.plain, missed.plain, cell.value.plain, cell.error.plain, px, pt);
+  judge(risen, fan.level.risen, missed.risen, cell.value.risen, cell.error.risen, rx, rt);
+  cell.split_x = px + rx > pt + rt;
+}
+
+}  // namespace
+
+LobeWeight weight_at(const DiskLobe& lobe, const Vec2d& m) {
+  return weight_at(lobe, lobe.view.x * m.x + lobe.view.y * m.y, m.x * m.x + m.y * m.y);
+}
+
+void evaluate(const DiskLobe& lobe, const LobeArc& arc, const LobeFan& fan, LobeRule rule, LobeCell& cell) {
+  switch (rule) {
+    case LobeRule::gauss4:
+      return by_gauss<4>(lobe, arc, fan, cell);
+    case LobeRule::gauss6:
+      return by_gauss<6>(lobe, arc, fan, cell);
+    case LobeRule::gauss10:
+      return by_gauss<10>(lobe, arc, fan, cell);
+  }
+}
+
+}  // namespace etendue::eval

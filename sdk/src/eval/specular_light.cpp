@@ -1,0 +1,402 @@
+// Adaptive evaluation in the disk in which GGX is uniform (lobe_cells.h): where cells begin, and which are halved.
+#include "etendue/specular_light.h"
+
+#include "fresnel.h"
+#include "lobe_cells.h"
+#include "local.h"
+#include "specular_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace etendue::eval {
+namespace {
+
+constexpr std::size_t most_cells = 20000;
+
+double squared(const Vec2d& q) { return q.x * q.x + q.y * q.y; }
+double angle_between(const Vec2d& a, const Vec2d& b) { return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y); }
+Vec2d stereographic(const Vec2d& q) {
+  const double per = 1 / (1 + std::sqrt(1 + squared(q)));
+  return {q.x * per, q.y * per};
+}
+
+// q along an arc, and its derivative to the arc's parameter.
+struct Slopes {
+  Vec2d q, speed;
+};
+Slopes slopes_at(const DiskLobe& lobe, const Arc& arc, double s) {
+  const double cs = std::cos(s), sn = std::sin(s);
+  Vec3d l = arc.centre + arc.u * cs + arc.v * sn, speed = arc.v * cs - arc.u * sn;
+  if (!arc.unit) {
+    const double inverse = 1 / length(l);
+    l = l * inverse;
+    speed = (speed - l * dot(l, speed)) * inverse;
+  }
+  const Vec3d h = lobe.view + l;
+  const double over = 1 / (lobe.alpha * h.z);
+  const Vec2d q{h.x * over, h.y * over};
+  return {q, {(speed.x - lobe.alpha * q.x * speed.z) * over, (speed.y - lobe.alpha * q.y * speed.z) * over}};
+}
+
+// Where an arc comes nearest to the middle of the lobe: the best of a few places (at grazing views the lobe is a ridge along the plane of
+// incidence), then steps of Gauss and Newton, which take an outline that is straight in q there in one.
+double nearest_to_lobe(const DiskLobe& lobe, const Arc& arc) {
+  constexpr int most_steps = 8;
+  constexpr double near_enough = 1e-4;  // squared, of the way over which the lobe falls
+  double best = 0.5 * (arc.begin + arc.end);
+  Slopes at = slopes_at(lobe, arc, best);
+  const auto try_at = [&](double s) {
+    const Slopes other = slopes_at(lobe, arc, s);
+    if (squared(other.q) < squared(at.q)) best = s, at = other;
+  };
+  try_at(arc.begin), try_at(arc.end);
+  const Crossings in_plane = crossings(arc, normalised(Vec3d{-lobe.view.y, lobe.view.x, 1e-30}));
+  for (std::size_t i = 0; i < in_plane.count; ++i) try_at(in_plane.s[i]);
+  if (arc.unit) try_at(nearest_to(arc, {-lobe.view.x, -lobe.view.y, lobe.view.z}).s);
+  for (int step = 0; step < most_steps; ++step) {
+    const double speed2 = squared(at.speed), before = squared(at.q);
+    if (!(speed2 > 0)) break;
+    const double to = std::clamp(best - (at.q.x * at.speed.x + at.q.y * at.speed.y) / speed2, arc.begin, arc.end);
+    if ((to - best) * (to - best) * speed2 < near_enough * (1 + before)) break;
+    try_at(to);
+    if (!(squared(at.q) < before)) break;
+  }
+  return best;
+}
+
+// In the middle; where one end is much nearer to the rim than the other in the mean of the distances' orders.
+double split_towards_rim(double from, double to, double rim) {
+  if (to < 0) return -split_towards_rim(-to, -from, rim);
+  const double far = rim - from, near = rim - to;
+  return from < 0 || !(near < 0.2 * far) ? 0.5 * (from + to) : rim - std::max(std::sqrt(far * near), 0.05 * far);
+}
+
+// Arcs of one outline, up to `last`, and their fan.
+struct Outline {
+  std::size_t first = 0, last = 0;
+  LobeFan fan;
+};
+
+class Adaptive {
+ public:
+  Adaptive(const GgxLobe& ggx, const Vec3d& view, double tolerance)
+      : ggx_(ggx),
+        lobe_(ggx, view),
+        tolerance_(tolerance),
+        rule_(tolerance >= 2e-4   ? LobeRule::gauss4
+              : tolerance >= 1e-5 ? LobeRule::gauss6
+                                  : LobeRule::gauss10),
+        negligible_(0.1 * tolerance / contrast()) {}
+
+  void add(const Contour& lit) {
+    Outline outline{arcs_.size(), arcs_.size(), {}};
+    double turned = 0;
+    std::vector<Vec2d> places;
+    Vec2d nearest{1e300, 0};
+    for (const Arc& arc : lit) {
+      const int parts = std::max(1, static_cast<int>(std::ceil((arc.end - arc.begin) / (0.5 * pi) - 1e-9)));
+      const double span = (arc.end - arc.begin) / parts;
+      for (int i = 0; i < parts; ++i) {
+        Arc part = arc;
+        part.begin = arc.begin + i * span;
+        part.end = i + 1 == parts ? arc.end : part.begin + span;
+        const double s0 = nearest_to_lobe(lobe_, part);
+        const Slopes at = slopes_at(lobe_, part, s0);
+        arcs_.push_back(lobe_arc(part, s0, at));
+        const Vec2d from = slopes_at(lobe_, part, part.begin).q, to = slopes_at(lobe_, part, part.end).q;
+        turned += angle_between(from, at.q) + angle_between(at.q, to);
+        if (squared(at.q) < squared(nearest)) nearest = at.q;
+        for (const Vec2d& q : {at.q, from, to}) places.push_back(stereographic(q));
+      }
+    }
+    outline.last = arcs_.size();
+    // Fans begin in the middle of the lobe if it is within, or is as good as within. Else they begin at the outline's nearest place: what
+    // is nearer would be added and taken out again.
+    double size = 0;
+    for (const Vec2d& p : places) size = std::max(size, std::hypot(p.x - places[0].x, p.y - places[0].y));
+    const double least = std::sqrt(squared(stereographic(nearest)));
+    const bool apart = std::abs(turned) < 1 && (least > 0.25 * size || least > 0.4);
+    outline.fan.base = apart ? least : 0;
+    const LobeWeight level = weight_at(lobe_, apart ? Vec2d{lobe_.alpha * nearest.x, lobe_.alpha * nearest.y} : Vec2d{});
+    outline.fan.level = {level.shape * (1 - level.w), level.shape * level.w};
+    outlines_.push_back(outline);
+  }
+
+  // Of a light of the luminance 1. floor(): what the tolerance is a part of where the value is less, asked for if it may be.
+  template <class Floor>
+  Estimate integrate(const Floor& floor_of) {
+    for (Outline& outline : outlines_) {
+      const std::size_t before = cells_.size();
+      begin(outline);
+      // If the outline turns about the middle all the same.
+      double turned = 0;
+      for (std::size_t i = before; i < cells_.size(); ++i) turned += cells_[i].t1 == 1 ? cells_[i].turned : 0;
+      if (outline.fan.base > 0 && std::abs(turned) > 1) {
+        cells_.resize(before);
+        outline.fan.base = 0;
+        begin(outline);
+      }
+    }
+    add_up();
+    floor_ = largest_value() < 1e-3 * pi ? floor_of() : 0;
+    if (excess(error_) > 1) refine();
+    // 1 - p is alpha where the slopes are 1.
+    const double rounding = 1e-13 + 1e-15 / lobe_.alpha;
+    Estimate estimate;
+    estimate.evaluations = evaluations_;
+    for (int c = 0; c < 3; ++c) {
+      const double v = of_channel(c, value_);
+      estimate.value[c] = std::max(v, 0.0);
+      estimate.error[c] = of_channel(c, error_) + rounding * std::abs(v) + std::max(-v, 0.0);
+    }
+    return estimate;
+  }
+
+ private:
+  // How much more of the light than at the middle of the lobe facets may send elsewhere: Schlick's weight is highest where the light comes
+  // from the horizon opposite to the view, v.l = -sin, and the rest of W may be some times what it is in the middle.
+  double contrast() const {
+    const double sine = std::sqrt((1 - lobe_.view.z) * (1 + lobe_.view.z)), f0 = std::max({ggx_.f0.x, ggx_.f0.y, ggx_.f0.z, 1e-3});
+    const auto reflectance = [&](double v_dot_h) { return f0 + (ggx_.f90 - f0) * schlick_weight(v_dot_h); };
+    return 4 * std::max(1.0, reflectance(std::sqrt(0.5 * (1 - sine))) / reflectance(lobe_.view.z));
+  }
+
+  LobeArc lobe_arc(const Arc& part, double s0, const Slopes& at) const {
+    const double cs = std::cos(s0), sn = std::sin(s0);
+    LobeArc arc{part.centre, part.u * cs + part.v * sn, part.v * cs - part.u * sn, part.unit};
+    // d q / d tau is twice d q / d s there.
+    arc.kappa = std::min(std::sqrt((1 + squared(at.q)) / std::max(squared(at.speed), 1e-300)), 1e3);
+    arc.x0 = arc.x_of(std::tan(0.5 * (part.begin - s0)));
+    arc.x1 = arc.x_of(std::tan(0.5 * (part.end - s0)));
+    arc.horizon = part.great_circle() && std::abs(part.u.z) < 1e-14 && std::abs(part.v.z) < 1e-14;
+    return arc;
+  }
+
+  const LobeFan& fan_of(std::size_t arc) const {
+    return std::upper_bound(outlines_.begin(), outlines_.end(), arc, [](std::size_t a, const Outline& o) { return a < o.last; })->fan;
+  }
+
+  // ---- First cells ----
+
+  // W bends where the slopes m = alpha q are about 1, alpha away from the rim p = 1: cells of a ray that reach it are made smaller towards
+  // it, as long as what is beyond, its area times what W differs there (alpha / distance), is not negligible.
+  template <class Mark>
+  void grade_rim(double base, double p, const Mark& mark) const {
+    if (!(lobe_.alpha > 0.05 * (1 - p))) return;
+    const double from = 1 - base, layer = std::max(1 - p, 0.1 * lobe_.alpha);
+    double at = from;
+    while (at > 5 * layer && at * std::min(lobe_.alpha, at) > negligible_ * from * from) mark(at *= 0.25);
+  }
+  // Masking bends within min(alpha, n.v) of the horizon, which a rule does not see that has no node there: heights above it that bound
+  // cells, from the lowest below which there is something. An outline along the horizon has a layer there, any other, which only ends
+  // there, the square of it.
+  template <class Mark>
+  void grade_heights(double lowest, double highest, bool along, const Mark& mark) const {
+    double height = std::max(2 * std::min(lobe_.alpha, lobe_.view.z), highest * (along ? negligible_ : std::sqrt(negligible_)));
+    if (lowest > height) return;
+    while (height < 0.5 * highest) {
+      mark(height);
+      height *= 4;
+    }
+  }
+
+  // Both ends of an arc, where it ends at the horizon.
+  void grade_ends(std::vector<double>& xs, const LobeArc& arc) const {
+    for (const bool at_end : {false, true}) {
+      const double from = arc.tau_of(at_end ? arc.x1 : arc.x0), way = arc.tau_of(at_end ? arc.x0 : arc.x1) - from, step = 1e-3;
+      const double low = arc.height(from), slope = (arc.height(from + step * way) - low) / step;
+      if (slope > 0) grade_heights(low, slope, false, [&](double h) { xs.push_back(arc.x_of(from + (h - low) / slope * way)); });
+    }
+  }
+  // n.l at the outer end of the ray to x, and how it rises inwards.
+  struct Rise {
+    double low = 0, slope = 0;
+  };
+  Rise rise_at(const LobeArc& arc, double base, double x) const {
+    const Vec2d q = arc.at(lobe_, arc.tau_of(x)).q;
+    const double q_length = std::sqrt(squared(q)), p1 = std::sqrt(squared(stereographic(q)));
+    const auto height = [&](double t) {
+      const double p = base + t * (p1 - base), stretch = 2 * p / ((1 - p) * (1 + p)) * lobe_.alpha / q_length;
+      const double vm = stretch * (lobe_.view.x * q.x + lobe_.view.y * q.y), m2 = stretch * stretch * squared(q);
+      return (2 * vm + lobe_.view.z * (1 - m2)) / (1 + m2);
+    };
+    constexpr double step = 1e-3;
+    const double low = std::max(height(1), 0.0);
+    return {low, (height(1 - step) - low) / step};
+  }
+
+  // Cells of a part of an arc between two parts of its rays, which are cut where the integrand bends along them.
+  void add_cells(std::vector<LobeCell>& cells, std::uint32_t index, double x0, double x1, double t0, double t1) {
+    const LobeArc& arc = arcs_[index];
+    const double base = fan_of(index).base, x = 0.5 * (x0 + x1);
+    const double p = std::sqrt(squared(stereographic(arc.at(lobe_, arc.tau_of(x)).q))), length = p - base;
+    std::vector<double> ts{t0, t1};
+    const auto mark = [&](double t) {
+      if (t > t0 && t < t1) ts.push_back(t);
+    };
+    if (t1 == 1) {
+      Rise steepest;
+      for (const double at : {x0, x, x1})
+        if (const Rise rise = rise_at(arc, base, at); rise.slope > steepest.slope) steepest = rise;
+      if (steepest.slope > 0)
+        grade_heights(steepest.low, steepest.slope, arc.horizon, [&](double h) { mark(1 - (h - steepest.low) / steepest.slope); });
+    }
+    grade_rim(base, p, [&](double away) { mark((1 - away - base) / length); });
+    std::sort(ts.begin(), ts.end());
+    for (std::size_t k = 0; k + 1 < ts.size(); ++k) {
+      LobeCell cell;
+      cell.arc = index;
+      cell.x0 = x0, cell.x1 = x1, cell.t0 = ts[k], cell.t1 = ts[k + 1];
+      cell.rim = length > 1e-9 * base ? (1 - base) / length : 1e30;
+      measure(cell);
+      cells.push_back(cell);
+    }
+  }
+
+  // Far out along an outline (|x| > 1/2 is 4/3 of the lobe's fall) cells take the exact turn of its azimuth.
+  void begin(const Outline& outline) {
+    constexpr double far = 0.5, long_way = 0.8;
+    for (std::size_t i = outline.first; i < outline.last; ++i) {
+      const LobeArc& arc = arcs_[i];
+      if (!(arc.x1 > arc.x0)) continue;
+      std::vector<double> xs{arc.x0, arc.x1};
+      if (arc.x1 > long_way) xs.push_back(std::max(far, arc.x0));
+      if (arc.x0 < -long_way) xs.push_back(std::min(-far, arc.x1));
+      if (arc.x1 > 0.6 && arc.x0 < -0.6) xs.push_back(0);
+      if (!arc.horizon) grade_ends(xs, arc);
+      std::sort(xs.begin(), xs.end());
+      for (std::size_t j = 0; j + 1 < xs.size(); ++j)
+        if (xs[j + 1] > xs[j]) add_cells(cells_, static_cast<std::uint32_t>(i), xs[j], xs[j + 1], 0, 1);
+    }
+  }
+
+  void measure(LobeCell& cell) {
+    evaluate(lobe_, arcs_[cell.arc], fan_of(cell.arc), rule_, cell);
+    evaluations_ += nodes_of(rule_);
+  }
+
+  // ---- Refinement ----
+
+  double of_channel(int c, const Risen& r) const { return ggx_.f0[c] * r.plain + ggx_.f90 * r.risen; }
+  double largest_value() const { return std::max({of_channel(0, value_), of_channel(1, value_), of_channel(2, value_)}); }
+  // An error in units of what is allowed, in the worst channel.
+  double excess(const Risen& error) const {
+    double worst = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double off = of_channel(c, error), allowed = tolerance_ * std::max(of_channel(c, value_), floor_);
+      if (off > 0) worst = std::max(worst, off / std::max(allowed, 1e-300));
+    }
+    return worst;
+  }
+  void add_up() {
+    value_ = error_ = {};
+    for (const LobeCell& c : cells_) add(c, 1);
+  }
+  void add(const LobeCell& cell, double times) {
+    value_.plain += times * cell.value.plain, value_.risen += times * cell.value.risen;
+    error_.plain += times * cell.error.plain, error_.risen += times * cell.error.risen;
+  }
+
+  void refine() {
+    std::vector<std::pair<double, std::size_t>> queue;
+    const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
+    for (std::size_t i = 0; i < cells_.size(); ++i) queue.emplace_back(excess(cells_[i].error), i);
+    std::make_heap(queue.begin(), queue.end(), less);
+    std::vector<LobeCell> children;
+    while (excess(error_) > 1 && cells_.size() < most_cells) {
+      std::pop_heap(queue.begin(), queue.end(), less);
+      const auto [priority, index] = queue.back();
+      if (!(priority > 0)) break;
+      queue.pop_back();
+      const LobeCell parent = cells_[index];
+      halve(parent, children);
+      distrust(parent, children);
+      add(parent, -1);
+      for (std::size_t i = 0; i < children.size(); ++i) {
+        add(children[i], 1);
+        const std::size_t at = i == 0 ? index : cells_.size();
+        if (i == 0) {
+          cells_[index] = children[i];
+        } else {
+          cells_.push_back(children[i]);
+        }
+        queue.emplace_back(excess(children[i].error), at);
+        std::push_heap(queue.begin(), queue.end(), less);
+      }
+    }
+    add_up();
+  }
+  void halve(const LobeCell& parent, std::vector<LobeCell>& children) {
+    children.clear();
+    if (parent.split_x) {
+      const double middle = split_towards_rim(parent.x0, parent.x1, 1);
+      add_cells(children, parent.arc, parent.x0, middle, parent.t0, parent.t1);
+      add_cells(children, parent.arc, middle, parent.x1, parent.t0, parent.t1);
+      return;
+    }
+    children = {parent, parent};
+    children[0].t1 = children[1].t0 = split_towards_rim(parent.t0, parent.t1, parent.rim);
+    for (LobeCell& child : children) measure(child);
+  }
+  // The parts know how wrong the whole was. If that is more than it had admitted, they share the blame.
+  static void distrust(const LobeCell& parent, std::vector<LobeCell>& children) {
+    for (double Risen::*part : {&Risen::plain, &Risen::risen}) {
+      double sum = 0;
+      for (const LobeCell& child : children) sum += child.value.*part;
+      const double wrong = std::abs(sum - parent.value.*part), admitted = parent.error.*part;
+      if (wrong <= admitted) continue;
+      const double factor = std::min(wrong / std::max(admitted, 1e-300), 100.0);
+      for (LobeCell& child : children) child.error.*part = std::min(child.error.*part * factor, std::max(child.error.*part, wrong));
+    }
+  }
+
+  GgxLobe ggx_;
+  DiskLobe lobe_;
+  double tolerance_;
+  LobeRule rule_;
+  double negligible_;  // part of the light
+  std::vector<LobeArc> arcs_;
+  std::vector<Outline> outlines_;
+  std::vector<LobeCell> cells_;
+  Risen value_, error_;
+  double floor_ = 0;
+  std::uint64_t evaluations_ = 0;
+};
+
+// Round GGX with Schlick's Fresnel, under either name.
+std::optional<GgxLobe> taken_lobe(const Brdf& brdf) {
+  if (const auto* ggx = std::get_if<GgxLobe>(&brdf)) return *ggx;
+  const auto* lobe = std::get_if<SpecularLobe>(&brdf);
+  if (lobe == nullptr || lobe->distribution != Distribution::ggx || lobe->alpha_x != lobe->alpha_y) return std::nullopt;
+  if (lobe->fresnel != Fresnel::schlick || lobe->compensation != nullptr) return std::nullopt;
+  return GgxLobe{lobe->alpha_x, lobe->f0, lobe->f90, lobe->masking};
+}
+
+double brightest(const Rgb& c) { return std::max({c.x, c.y, c.z}); }
+
+}  // namespace
+
+std::optional<Estimate> specular_luminance(const Emitter& emitter, const ShadingPoint& point, double tolerance) {
+  const std::optional<GgxLobe> lobe = taken_lobe(point.brdf);
+  if (!lobe || !is_uniform_area_light(emitter)) return std::nullopt;
+  const LocalFrame frame(point.position, point.normal);
+  const Vec3d view = frame.vector(point.view);
+  const Rgb luminance = luminance_of(emitter);
+  if (!(view.z > 0) || !(brightest(luminance) > 0)) return Estimate{};
+  constexpr double tightest = 1e-9;
+  Adaptive adaptive(*lobe, view, std::clamp(tolerance, tightest, 1.0));
+  const Horizons horizons = horizons_of(frame, point.normal, point.surface_normal);
+  each_outline(emitter, frame, [&](const Contour& outline, std::size_t) {
+    if (const Contour lit = clipped(outline, horizons); !lit.empty()) adaptive.add(lit);
+  });
+  Estimate estimate =
+      adaptive.integrate([&] { return 1e-3 * brightest(illuminance(emitter, point.position, point.normal)) / brightest(luminance); });
+  estimate.value = estimate.value * luminance;
+  estimate.error = estimate.error * luminance;
+  return estimate;
+}
+
+}  // namespace etendue::eval
