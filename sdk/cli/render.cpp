@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "limits.h"
+#include "shadows.h"
 #include "verbs.h"
 
 namespace etendue::cli {
@@ -14,8 +15,10 @@ namespace {
 struct Options {
   std::string asset, out, size = "512x512", camera, lights, mute;
   ImportOptions import;
+  ShadowOptions shadows;
   double tolerance = 0.001;
   unsigned threads = 0;
+  std::uint64_t seed = 1;
   bool force = false, mitsuba_model = false;
 };
 
@@ -44,6 +47,8 @@ int run_render(const Common& common, const Options& options) {
   // Shadows are computed to a fifth of the noise that is given, shading to a fiftieth; --tolerance, a tenth, lies between.
   render_options.expected_noise = 10 * options.tolerance;
   render_options.threads = options.threads;
+  render_options.seed = options.seed;
+  options.shadows.apply(render_options);
   Result<Rendered> rendered = [&] {
     Bar bar(session);
     return render(scene, render_options, &bar);
@@ -81,12 +86,15 @@ void add_render(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--tolerance", options->tolerance, "Relative error of a pixel that is aimed at")
       ->capture_default_str()
       ->check(CLI::Range(1e-6, 0.1));
+  add_shadows(*verb, options->shadows);
+  verb->add_option("--seed", options->seed, "Of the shadows' samples")->capture_default_str();
   verb->add_option("--threads", options->threads, "0: every core")->capture_default_str();
   verb->add_flag("--mitsuba-model", options->mitsuba_model, "Materials and ranges as Mitsuba's scene has them");
   verb->add_flag("--force", options->force, "Replace OUT");
   add_limits(*verb, options->import);
   verb->footer(
-      "\nExamples:\n  etendue render kitchen.rig.json kitchen.exr\n  etendue render room.glb key.exr --lights key --size 1280x720");
+      "\nExamples:\n  etendue render kitchen.rig.json kitchen.exr\n  etendue render room.glb key.exr --lights key --size 1280x720\n"
+      "  etendue render room.glb draft.exr --shadows ratio --shadow-samples 8");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_render(common, *options); }; });
 }
 

@@ -13,6 +13,7 @@
 #include "exporters/mitsuba/mitsuba.h"
 #include "limits.h"
 #include "mitsuba_pictures.h"
+#include "shadows.h"
 #include "verbs.h"
 
 namespace etendue::cli {
@@ -24,6 +25,7 @@ struct Options {
   std::string asset, out = "etendue-report", size = "512x512", max_difference = "1%", camera, lights, mute, mitsuba, cache;
   unsigned samples = 1024, seeds = 16, threads = 0;
   ImportOptions import;
+  ShadowOptions shadows;
   double seconds = 0;
   bool no_cache = false, plugins = false;
 };
@@ -177,6 +179,7 @@ Result<Validation> validate_scene(Session& session, const Options& options, Scen
   render_options.mitsuba_model = true;
   render_options.expected_noise = expected_noise(request.split.per_light());
   render_options.threads = options.threads;
+  options.shadows.apply(render_options);
   Stage our_picture("our picture", bar);
   Result<Rendered> rendered = render(scene, render_options, &our_picture);
   if (!rendered) return rendered.error();
@@ -306,6 +309,7 @@ void add_validate(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--cache", options->cache, "Folder for Mitsuba's pictures (default: the user's cache)");
   verb->add_flag("--plugins", options->plugins, "Photometric webs in Mitsuba as they are, by our own emitter, instead of pictures of them");
   verb->add_flag("--no-cache", options->no_cache, "Render all of Mitsuba's pictures anew");
+  add_shadows(*verb, options->shadows);
   verb->add_option("--threads", options->threads, "Of our renderer; 0: every core")->capture_default_str();
   add_limits(*verb, options->import);
   verb->footer(

@@ -119,3 +119,18 @@ def occluder_rig(material, folder):
     path = pathlib.Path(folder) / "occluders.rig.json"
     path.write_text(json.dumps(rig, indent=1))
     return path
+
+
+def blinds_rig(material, folder):
+    """A large light close to the floor behind five slats: penumbrae over one another nearly everywhere."""
+    slats = [{"name": "slat %d" % i, "shape": {"type": "box", "size": [1.6, 0.02, 0.08]}, "material": "grey",
+              "translation": [0, 0.45, -0.5 + 0.25 * i]} for i in range(5)]
+    lamp = {"name": "window", "shape": {"type": "rect", "width": "1.2 m", "height": "0.8 m"}, "emission": {"flux": "1500 lm"},
+            "translation": [0, 1.1, -0.3], "rotation": towards((0, -1, 0.3))}
+    grey = {"name": "grey", "model": "lambert", "base_colour": [0.4, 0.45, 0.5]}
+    rig = {"etendue": 1, "lights": [lamp], "camera": {"position": [0, 1.5, 2.4], "target": [0, 0.1, 0.3], "vfov": "36 deg"},
+           "materials": [material, grey],
+           "objects": [{"name": "floor", "shape": {"type": "plane", "size": 8}, "material": "floor"}, *slats]}
+    path = pathlib.Path(folder) / "blinds.rig.json"
+    path.write_text(json.dumps(rig, indent=1))
+    return path

@@ -269,26 +269,91 @@ TEST(Render, PenumbraOfAHalfPlaneIsTheVisiblePartOfTheLight) {
   EXPECT_LT(squares, 2 * variance);
 }
 
-TEST(Render, TwoSeedsDifferByWhatTheVarianceSays) {
+// Mean of d^2 / v of two seeds, and sum of d^2 over sum of v.
+struct Honesty {
+  double mean_of_quotients, quotient_of_means;
+};
+Honesty honesty(Shadows shadows) {
   const Penumbra penumbra;
   RenderOptions options = small();
   options.expected_noise = 0.05;
+  options.shadows = shadows;
   const Rendered a = rendered(penumbra.scene, options);
   options.seed = 2;
   const Rendered b = rendered(penumbra.scene, options);
-  double chi2 = 0;
+  double chi2 = 0, squares = 0, variance = 0;
   int count = 0;
   for (std::size_t i = 0; i < std::size_t{24} * 24; ++i) {
     const double v = green(a.picture, "variance", i) + green(b.picture, "variance", i);
     if (v <= 0) continue;
     const double d = green(a.picture, "", i) - green(b.picture, "", i);
     chi2 += d * d / v;
+    squares += d * d, variance += v;
     ++count;
   }
-  ASSERT_GT(count, 100);
+  EXPECT_GT(count, 100);
+  return {chi2 / count, squares / variance};
+}
+TEST(Render, TwoSeedsDifferByWhatTheVarianceSays) {
   // 14 degrees of freedom: mean 14/12 = 1.17.
-  EXPECT_GT(chi2 / count, 0.7);
-  EXPECT_LT(chi2 / count, 2.0);
+  const double chi2 = honesty(Shadows::unbiased).mean_of_quotients;
+  EXPECT_GT(chi2, 0.7);
+  EXPECT_LT(chi2, 2.0);
+}
+// Where nothing is blocked among what may be, a ratio is exactly 1 and its variance that of its neighbours: too much there, as much too
+// little in the neighbours, right in the sum.
+TEST(Render, TwoSeedsOfARatioDifferByWhatTheVarianceSays) {
+  const double chi2 = honesty(Shadows::ratio).quotient_of_means;
+  EXPECT_GT(chi2, 0.7);
+  EXPECT_LT(chi2, 1.4);
+}
+
+TEST(Render, ARatioOfShadowsStaysBetweenDarknessAndTheUnblockedLight) {
+  const Penumbra penumbra;
+  RenderOptions options = small();
+  options.shadow_samples = 8;
+  Scene open = penumbra.scene;
+  open.objects.resize(1);
+  const Rendered unblocked = rendered(open, options), unbiased = rendered(penumbra.scene, options);
+  options.shadows = Shadows::ratio;
+  const Rendered ratio = rendered(penumbra.scene, options);
+  const auto floor = [&](const Rendered& r, std::size_t i) { return r.picture.find("object")->pixels[i] == 1; };
+  int outside = 0, between = 0;
+  for (std::size_t i = 0; i < std::size_t{24} * 24; ++i) {
+    if (!floor(ratio, i) || ratio.picture.find("emitter")->pixels[i] != 0) continue;
+    const float all = green(unblocked.picture, "", i), part = green(ratio.picture, "", i);
+    EXPECT_GE(part, 0) << i;
+    EXPECT_LE(part, all * 1.0001f) << i;
+    between += part > 0 && part < 0.999f * all ? 1 : 0;
+    outside += green(unbiased.picture, "", i) < -0.001f * all || green(unbiased.picture, "", i) > 1.001f * all ? 1 : 0;
+  }
+  EXPECT_GT(between, 30);
+  EXPECT_GT(outside, 0);
+}
+
+// The bias is Cov(w, R w - V w) / (n mean(w)^2) to first order. The form without bias differs from the same samples by little more than
+// that, so that few pictures show it beside the noise.
+TEST(Render, ARatioOfShadowsIsDarkerTheFewerItsSamples) {
+  const Penumbra penumbra;
+  const auto bias = [&](std::uint32_t samples, std::uint64_t seeds) {
+    RenderOptions options = small(12, 12);
+    options.shadow_samples = samples;
+    double of_ratio = 0, unbiased = 0;
+    for (options.seed = 1; options.seed <= seeds; ++options.seed) {
+      for (const Shadows shadows : {Shadows::unbiased, Shadows::ratio}) {
+        options.shadows = shadows;
+        const Picture picture = rendered(penumbra.scene, options).picture;
+        for (std::size_t i = 0; i < 144; ++i) {
+          if (picture.find("object")->pixels[i] == 1) (shadows == Shadows::ratio ? of_ratio : unbiased) += green(picture, "", i);
+        }
+      }
+    }
+    return of_ratio / unbiased - 1;
+  };
+  const double two = bias(2, 24);
+  EXPECT_LT(two, -4e-4);
+  EXPECT_GT(two, -2e-3);
+  EXPECT_LT(std::abs(bias(256, 4)), 5e-5);
 }
 
 // Something small close to a light takes 2 % of it from the whole floor: of 32 samples a pixel half the pixels see none blocked. Meaned
@@ -545,6 +610,8 @@ TEST(Render, CancelsAndRefuses) {
   RenderOptions options = small();
   options.camera = 1;
   EXPECT_EQ(render(scene, options).error().code, "CAMERA_MISSING");
+  options.shadow_samples = 1;  // no spread to tell a variance from
+  EXPECT_EQ(render(scene, options).error().code, "EVALUATION_UNSUPPORTED");
   scene.objects[0].material = 7;
   EXPECT_EQ(render(scene, small()).error().code, "SCENE_INVALID");
 }

@@ -12,6 +12,15 @@
 
 namespace etendue {
 
+// How shadows of extended lights are joined to their exact light.
+enum class Shadows {
+  unbiased,  // what the samples' shadows take away is subtracted
+  // Multiplied by the samples' shadowed light over their unblocked light (Heitz, Hill and McGuire 2018): never negative, never more than
+  // the unblocked light, and dark by a bias that falls with the number of samples (sdk/docs/rendering.md has figures). Light that is not
+  // exact (of patterns and environments, on uneven surfaces) is unbiased all the same.
+  ratio,
+};
+
 struct RenderOptions {
   std::uint32_t width = 512, height = 512;
   std::uint32_t camera = 0;        // index into Scene::cameras
@@ -21,8 +30,10 @@ struct RenderOptions {
   // What need not be resolved: the relative noise (standard deviation over value) per pixel of the picture that ours is compared
   // with, for one light. Shading is computed to a fiftieth of it, shadows to a fifth. 0.01 suits a picture to look at.
   double expected_noise = 0.01;
-  unsigned threads = 0;    // 0: all cores
-  std::uint64_t seed = 1;  // of the shadow estimates
+  Shadows shadows = Shadows::unbiased;
+  std::uint32_t shadow_samples = 0;  // of a pixel in a penumbra, 2 to 4096, a few less to be even; 0: as many as expected_noise asks for
+  unsigned threads = 0;              // 0: all cores
+  std::uint64_t seed = 1;            // of the shadow estimates
 };
 
 struct RenderStats {

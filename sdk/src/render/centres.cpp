@@ -37,7 +37,7 @@ bool LightPainter::find_centres(RowRunner& rows) {
 }
 
 bool LightPainter::centre_is_needed(std::uint32_t x, std::uint32_t y) const {
-  if (surroundings(x, y).beta > 0) return true;
+  if (options_.shadows == Shadows::ratio || surroundings(x, y).beta > 0) return true;
   return (x > 0 && surroundings(x - 1, y).beta > 0) || (y > 0 && surroundings(x, y - 1).beta > 0) ||
          (x + 1 < options_.width && surroundings(x + 1, y).beta > 0) || (y + 1 < options_.height && surroundings(x, y + 1).beta > 0);
 }

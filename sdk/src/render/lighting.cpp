@@ -39,9 +39,6 @@ class Sequence {
   std::array<double, dimensions> place_{};
 };
 
-Rgb squared(const Rgb& c) { return c * c; }
-double sum(const Rgb& c) { return c.x + c.y + c.z; }
-
 // A shading point with its frame: directions of the world in, reflected parts out.
 class Reflector {
  public:
@@ -87,12 +84,37 @@ bool samples_brdf(const StageLight& light, const eval::ShadingPoint& point, cons
   return !angle || reflector.highest_pdf() * *angle > least_share;
 }
 
-// Sums over one replicate.
-struct Sums {
-  Rgb visible, all;
-};
-
 }  // namespace
+
+Sampled::Sums Sampled::total() const {
+  Sums sum;
+  for (const Sums& r : replicates) sum.visible += r.visible, sum.all += r.all;
+  return sum;
+}
+
+Deviating Sampled::difference(double beta) const {
+  const auto count = static_cast<double>(replicates.size());
+  const auto estimate = [&](const Sums& sums) { return (sums.visible - sums.all * beta) / static_cast<double>(points); };
+  Deviating out;
+  for (const Sums& r : replicates) out.mean += estimate(r) / count;
+  for (const Sums& r : replicates) out.variance += squared(estimate(r) - out.mean) / (count * (count - 1));
+  return out;
+}
+
+// With v and a a replicate's sums and R = sum v / sum a, to first order in the deviations R is off by mean(v - R a) / mean(a).
+Deviating Sampled::ratio(double otherwise) const {
+  const auto count = static_cast<double>(replicates.size());
+  const Sums sum = total();
+  Deviating out;
+  for (int c = 0; c < 3; ++c) {
+    out.mean[c] = sum.all[c] > 0 ? sum.visible[c] / sum.all[c] : otherwise;
+    if (!(sum.all[c] > 0)) continue;
+    double squares = 0;
+    for (const Sums& r : replicates) squares += std::pow((r.visible[c] - out.mean[c] * r.all[c]) / sum.all[c], 2);
+    out.variance[c] = squares * count / (count - 1);
+  }
+  return out;
+}
 
 Rgb Lighting::emitted(const StageLight& light, const std::optional<SurfacePoint>& point, const Ray& ray) const {
   const bool met = point ? point->thing == light.thing : light.background;
@@ -141,14 +163,13 @@ std::optional<SurfacePoint> Lighting::target_point(const PixelTarget& target, co
   return point;
 }
 
-Sampled Lighting::sample(const StageLight& light, const PixelTarget& target, double beta, const Effort& effort, std::uint64_t seed,
+Sampled Lighting::sample(const StageLight& light, const PixelTarget& target, const Effort& effort, std::uint64_t seed,
                          RayCounts& counts) const {
-  Sampled result;
-  std::vector<Rgb> estimates(static_cast<std::size_t>(effort.replicates));
+  Sampled result{std::vector<Sampled::Sums>(static_cast<std::size_t>(effort.replicates)), effort.points};
   const std::uint32_t own = light.convex ? light.thing : no_index;
-  for (std::size_t r = 0; r < estimates.size(); ++r) {
+  for (std::size_t r = 0; r < result.replicates.size(); ++r) {
     Sequence sequence(mixed(seed) + r);
-    Sums sums;
+    Sampled::Sums& sums = result.replicates[r];
     for (int i = 0; i < effort.points; ++i) {
       const auto u = sequence.next();
       const Ray ray = camera_.through(target.x + u[0], target.y + u[1]);
@@ -178,13 +199,7 @@ Sampled Lighting::sample(const StageLight& light, const PixelTarget& target, dou
       if (met.radiance == Rgb{}) continue;
       add(reflection.direction, met.distance, reflector.brdf_cos(reflection.direction) * met.radiance / (met.pdf + reflection.pdf));
     }
-    estimates[r] = (sums.visible - sums.all * beta) / static_cast<double>(effort.points);
-    result.mean += estimates[r] / static_cast<double>(effort.replicates);
-    result.visible_sum += sum(sums.visible);
-    result.all_sum += sum(sums.all);
   }
-  for (const Rgb& e : estimates)
-    result.variance += squared(e - result.mean) / static_cast<double>(effort.replicates * (effort.replicates - 1));
   return result;
 }
 

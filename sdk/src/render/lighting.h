@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace etendue::rendering {
 
+inline Rgb squared(const Rgb& c) { return c * c; }
 inline double largest(const Rgb& c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
 
 // Independent estimates that a variance is computed from, and points in each.
@@ -17,10 +19,23 @@ struct Effort {
   int replicates, points;
 };
 
-// The estimate of a pixel's reflected light minus beta times its unblocked light, both from the same samples (see sdk/docs/rendering.md).
+struct Deviating {
+  Rgb mean, variance;  // of the mean
+};
+
+// A pixel's reflected light by samples, with and without shadows; the two estimates of it are derived in sdk/docs/rendering.md.
 struct Sampled {
-  Rgb mean, variance;                   // of the mean
-  double visible_sum = 0, all_sum = 0;  // of the samples' light with and without shadows
+  struct Sums {
+    Rgb visible, all;
+  };
+  std::vector<Sums> replicates;  // of each the samples' sum over its points
+  int points = 0;
+
+  Sums total() const;
+  // Of the shadowed light less beta times the unblocked.
+  Deviating difference(double beta) const;
+  // Of the shadowed light over the unblocked, channel by channel; where there is none of that, `otherwise`.
+  Deviating ratio(double otherwise) const;
 };
 
 // Reflected light with nothing in between, and what eval::reference vouches for its error (in the channel where that is largest).
@@ -52,9 +67,8 @@ class Lighting {
                       RayCounts& counts, const std::optional<Rgb>& base_colour = std::nullopt) const;
   Response response(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
                     RayCounts& counts) const;
-  // The mean of (V - beta) times reflected light over pixel and light; V is 1 where the light is seen and else 0.
-  Sampled sample(const StageLight& light, const PixelTarget& target, double beta, const Effort& effort, std::uint64_t seed,
-                 RayCounts& counts) const;
+  // Over pixel and light.
+  Sampled sample(const StageLight& light, const PixelTarget& target, const Effort& effort, std::uint64_t seed, RayCounts& counts) const;
 
  private:
   std::optional<SurfacePoint> target_point(const PixelTarget& target, const Ray& ray, RayCounts& counts) const;

@@ -28,6 +28,13 @@ Effort effort_for(double goal, bool only_sampled) {
   return {parts * pilot.replicates, points / parts};
 }
 
+Effort effort_of(std::uint32_t samples) {
+  const int replicates = std::min(pilot.replicates, static_cast<int>(samples));
+  return {replicates, static_cast<int>(samples) / replicates};
+}
+
+double sum(const Rgb& c) { return c.x + c.y + c.z; }
+
 }  // namespace
 
 LightPainter::LightPainter(const Stage& stage, const PinholeCamera& camera, const Survey& survey, const StageLight& light,
@@ -57,7 +64,7 @@ double LightPainter::typical_luminance() const {
   for (std::uint32_t j = 0; j < cells; ++j) {
     for (std::uint32_t i = 0; i < cells; ++i) {
       const std::uint32_t x = (2 * i + 1) * options_.width / (2 * cells), y = (2 * j + 1) * options_.height / (2 * cells);
-      total += lighting_.sample(light_, {x, y, nullptr}, 0, {pilot.replicates, 1}, seed(index(x, y), typical_purpose), counts).all_sum /
+      total += sum(lighting_.sample(light_, {x, y, nullptr}, pilot, seed(index(x, y), typical_purpose), counts).total().all) /
                (3.0 * pilot.replicates);
     }
   }
@@ -108,9 +115,9 @@ void LightPainter::pilot_row(std::uint32_t row, RayCounts& counts) {
     const auto centre = stage_.first(camera_.through(x + 0.5, row + 0.5));
     if (!centre && survey_.regions(index(x, row)) == nullptr) continue;
     const PixelTarget where = target(x, row, centre ? &*centre : nullptr);
-    const Sampled s = lighting_.sample(light_, where, 1, pilot, seed(index(x, row), pilot_purpose), counts);
-    visible_[index(x, row)] = static_cast<float>(s.visible_sum);
-    all_[index(x, row)] = static_cast<float>(s.all_sum);
+    const Sampled::Sums sums = lighting_.sample(light_, where, pilot, seed(index(x, row), pilot_purpose), counts).total();
+    visible_[index(x, row)] = static_cast<float>(sum(sums.visible));
+    all_[index(x, row)] = static_cast<float>(sum(sums.all));
   }
 }
 
@@ -132,14 +139,23 @@ LightPainter::Surroundings LightPainter::surroundings(std::uint32_t x, std::uint
   return {visible / all, visible > 0};
 }
 
-LightPainter::Measured LightPainter::sampled(std::uint32_t x, std::uint32_t y, const Surroundings& around,
-                                             const std::optional<SurfacePoint>& centre, RayCounts& counts) const {
+LightPainter::Measured LightPainter::exact(std::uint32_t x, std::uint32_t y, double beta, const std::optional<SurfacePoint>& centre,
+                                           RayCounts& counts) const {
+  const Regions* regions = survey_.regions(index(x, y));
+  return regions != nullptr ? split(x, y, *regions, beta, counts) : smooth(x, y, beta, centre, counts);
+}
+
+Sampled LightPainter::sampled(std::uint32_t x, std::uint32_t y, const Surroundings& around, const std::optional<SurfacePoint>& centre,
+                              RayCounts& counts) const {
   const std::size_t pixel = index(x, y);
+  if (light_.delta || (survey_.regions(pixel) == nullptr && (!centre || stage_.thing(centre->thing).paint == nullptr))) return {};
   if (light_.analytic && !shadows_ && !around.mixed) return {};
   Effort effort = pilot;
   std::uint64_t purpose = pilot_purpose;
   if (around.mixed) {
-    effort = effort_for(shadow_share * options_.expected_noise, !(around.beta > 0));
+    effort = options_.shadow_samples > 0 && !around.only_sampled()
+                 ? effort_of(options_.shadow_samples)
+                 : effort_for(shadow_share * options_.expected_noise, around.only_sampled());
     purpose = shadow_purpose;
   } else {
     // The pilot's own samples are repeated, unless they are known to add nothing.
@@ -147,8 +163,23 @@ LightPainter::Measured LightPainter::sampled(std::uint32_t x, std::uint32_t y, c
     if ((around.beta == 1 && all_seen) || (around.beta == 0 && none_seen)) return {};
   }
   const PixelTarget where = target(x, y, centre ? &*centre : nullptr);
-  const Sampled s = lighting_.sample(light_, where, around.beta, effort, seed(pixel, purpose), counts);
-  return {s.mean, s.variance};
+  return lighting_.sample(light_, where, effort, seed(pixel, purpose), counts);
+}
+
+LightPainter::Shadowed LightPainter::by_difference(std::uint32_t x, std::uint32_t y, const Surroundings& around,
+                                                   const std::optional<SurfacePoint>& centre, RayCounts& counts) const {
+  Measured all = exact(x, y, around.beta, centre, counts);
+  const Deviating difference = sampled(x, y, around, centre, counts).difference(around.beta);
+  all.value += difference.mean;
+  return {all, difference.variance};
+}
+
+LightPainter::Shadowed LightPainter::by_ratio(std::uint32_t x, std::uint32_t y, const Surroundings& around,
+                                              const std::optional<SurfacePoint>& centre, RayCounts& counts) const {
+  const Deviating ratio = sampled(x, y, around, centre, counts).ratio(around.beta);
+  const Measured seen = exact(x, y, 0, centre, counts), lit = exact(x, y, 1, centre, counts);
+  const Rgb light = lit.value - seen.value;
+  return {{seen.value + light * ratio.mean, lit.variance, lit.bound}, squared(light) * ratio.variance};
 }
 
 void LightPainter::paint_row(std::uint32_t row, RayCounts& counts) {
@@ -159,19 +190,17 @@ void LightPainter::paint_row(std::uint32_t row, RayCounts& counts) {
     Surroundings around = surroundings(x, row);
     if (around.beta > 0 && regions == nullptr && is_coloured(centre) && !is_matt(*centre) && !is_gentle(x, row, *centre))
       around = {0, true};
-    const Measured direct = regions != nullptr ? split(x, row, *regions, around.beta, counts) : smooth(x, row, around.beta, centre, counts);
-    value_[pixel] = direct.value;
-    variance_[pixel] = direct.variance;
+    const bool ratio = shadows_ && options_.shadows == Shadows::ratio && !around.only_sampled();
+    const Shadowed shadowed = ratio ? by_ratio(x, row, around, centre, counts) : by_difference(x, row, around, centre, counts);
+    value_[pixel] = shadowed.all.value;
+    variance_[pixel] = shadowed.all.variance;
     // What shading may be off by is a bound, not a deviation: a tenth of it is a choice (sdk/docs/rendering.md), not a measurement.
-    variance_[pixel] += Rgb{1, 1, 1} * std::pow(0.1 * direct.bound, 2);
-    if (light_.delta || (regions == nullptr && (!centre || stage_.thing(centre->thing).paint == nullptr))) continue;
-    const Measured shadow = sampled(x, row, around, centre, counts);
-    value_[pixel] += shadow.value;
+    variance_[pixel] += Rgb{1, 1, 1} * std::pow(0.1 * shadowed.all.bound, 2);
     if (shadows_ && around.mixed && around.beta > 0 && regions == nullptr) {
-      mixed_variance_[pixel] = shadow.variance;
+      mixed_variance_[pixel] = shadowed.shadow_variance;
       is_mixed_[pixel] = 1;
     } else {
-      variance_[pixel] += shadow.variance;
+      variance_[pixel] += shadowed.shadow_variance;
     }
   }
 }

@@ -5,6 +5,8 @@
 #include "rows.h"
 #include "survey.h"
 
+#include "etendue/render.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -17,6 +19,8 @@ struct PainterOptions {
   std::uint32_t width = 0, height = 0;
   double expected_noise = 0.01;
   std::uint64_t seed = 1;
+  Shadows shadows = Shadows::unbiased;
+  std::uint32_t shadow_samples = 0;
 };
 
 class LightPainter {
@@ -54,6 +58,12 @@ class LightPainter {
   struct Surroundings {
     double beta = 1;
     bool mixed = false;
+    bool only_sampled() const { return mixed && !(beta > 0); }
+  };
+  // A pixel with its shadow, and the variance that is the shadow's alone.
+  struct Shadowed {
+    Measured all;
+    Rgb shadow_variance;
   };
 
   double typical_luminance() const;
@@ -78,8 +88,15 @@ class LightPainter {
   Measured cubature(const Cell& cell, double beta, int halvings, RayCounts& counts) const;
   Measured smooth(std::uint32_t x, std::uint32_t y, double beta, const std::optional<SurfacePoint>& centre, RayCounts& counts) const;
   Measured split(std::uint32_t x, std::uint32_t y, const Regions& regions, double beta, RayCounts& counts) const;
-  Measured sampled(std::uint32_t x, std::uint32_t y, const Surroundings& around, const std::optional<SurfacePoint>& centre,
-                   RayCounts& counts) const;
+  // What is seen of the light itself, and what surfaces reflect of it, times beta, without shadows.
+  Measured exact(std::uint32_t x, std::uint32_t y, double beta, const std::optional<SurfacePoint>& centre, RayCounts& counts) const;
+  // Empty where it is known to change nothing.
+  Sampled sampled(std::uint32_t x, std::uint32_t y, const Surroundings& around, const std::optional<SurfacePoint>& centre,
+                  RayCounts& counts) const;
+  Shadowed by_difference(std::uint32_t x, std::uint32_t y, const Surroundings& around, const std::optional<SurfacePoint>& centre,
+                         RayCounts& counts) const;
+  Shadowed by_ratio(std::uint32_t x, std::uint32_t y, const Surroundings& around, const std::optional<SurfacePoint>& centre,
+                    RayCounts& counts) const;
   // `colour`: the base colour that all places are taken to have, where a texture changes it.
   Rgb centre(std::size_t pixel, const Rgb& colour) const { return black_[pixel] + slope_[pixel] * colour; }
   std::optional<Curvature> curvature(std::uint32_t x, std::uint32_t y, const Rgb& colour) const;

@@ -15,8 +15,6 @@ constexpr double place_share = 0.2;                             // of the expect
 constexpr int fewest_cells = 3, most_cells = 12;                // along a pixel's side, two places in each
 constexpr int halvings_for_points = 4, halvings_for_areas = 2;
 
-Rgb squared(const Rgb& c) { return c * c; }
-
 // Independent places with the relative standard deviation `spread` come to `goal` at (spread / goal)^2 of them.
 int cells_for(double spread, double goal) {
   const double side = std::ceil(spread / std::max(goal, 1e-6) / std::sqrt(2.0));

@@ -22,6 +22,9 @@ Status check(const Scene& scene, const RenderOptions& options) {
   if (options.width < 1 || options.height < 1 || options.width > largest_side || options.height > largest_side) {
     return problem("EVALUATION_UNSUPPORTED", "expected a picture of 1 to 16384 pixels a side", scene);
   }
+  if (options.shadow_samples == 1 || options.shadow_samples > 4096) {
+    return problem("EVALUATION_UNSUPPORTED", "expected 2 to 4096 samples of a shadow", scene);
+  }
   if (options.camera >= scene.cameras.size()) {
     return problem("CAMERA_MISSING",
                    "camera " + std::to_string(options.camera) + " was asked for, the scene has " + std::to_string(scene.cameras.size()),
@@ -101,7 +104,8 @@ Result<Rendered> render(const Scene& scene, const RenderOptions& options, Progre
   const std::size_t pixels = std::size_t{options.width} * options.height;
   std::vector<Rgb> sum(pixels), variance(pixels);
   for (const StageLight& light : stage.lights()) {
-    LightPainter painter(stage, camera, survey, light, {options.width, options.height, options.expected_noise, options.seed});
+    LightPainter painter(stage, camera, survey, light,
+                         {options.width, options.height, options.expected_noise, options.seed, options.shadows, options.shadow_samples});
     if (!painter.run(rows)) return cancelled;
     add_light_layers(painter, light.layer, sum, variance, picture);
   }
