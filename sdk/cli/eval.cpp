@@ -280,8 +280,7 @@ Status Evaluator::accepts(const Emitter& emitter, const std::string& name) const
   if (specular_ != nullptr && !specular_->luminance(emitter, shading_point(probe))) {
     return Error{
         "METHOD_UNSUPPORTED",
-        fmt::format("light '{}': expected an area light without pattern or range and round GGX of correlated masking and Schlick's "
-                    "Fresnel, which {} takes",
+        fmt::format("light '{}': expected an area light without pattern or range, of a shape that {} takes, and a round lobe that it takes",
                     name, specular_->name),
         {},
         "--lights chooses some",
@@ -569,7 +568,8 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
               "exact, fast (floats; of other diffuse BRDFs a few dozen evaluations, whose bound is an estimate that 99 of 100 keep), "
               "reference, monte-carlo (samples of the light, with a statistical bound), or a method's name: published ones of diffuse "
               "light; of ggx adaptive (to --tolerance, by the fewest evaluations; taken of itself where a "
-              "tolerance is named and no method), moments, ltc, ltc-two-lobes or ltc-unclipped")
+              "tolerance is named and no method), moments, ltc, ltc-two-lobes, and published ones such as karis-14, drobot-elongated (of "
+              "every round lobe), frostbite-6 (the sun). A name that is none lists them")
           ->capture_default_str();
   verb->add_option("--samples", options->samples, "Of monte-carlo: samples of each light at each point (default 65536)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32));
@@ -592,6 +592,7 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
       "  etendue eval street.rig.json --points road.csv --method fast --sum --tolerance 1e-2 --stats\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf ggx --alpha 0.1 --tolerance 1e-3\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf ggx --alpha 0.1 --lights key --method moments\n"
+      "  etendue eval studio.rig.json --points floor.csv --brdf phong --alpha 0.1 --lights key --method drobot-1-20-fitted\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf beckmann --alpha 0.05 --alpha-across 0.3 --tangent 1,0,0\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf ggx --alpha 0.2 --fresnel conductor --eta 0.2,0.92,1.1 --k 3.9,2.4,2.1\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf oren-nayar --roughness 0.8 --method fast\n"

@@ -1,5 +1,6 @@
 // Lagarde and de Rousiers, "Moving Frostbite to Physically Based Rendering 3.0" (2014), 4.7.2 and appendix E.
 #include "contour.h"
+#include "karis.h"
 #include "punctual.h"
 #include "representative_point.h"
 #include "silhouette.h"
@@ -271,9 +272,77 @@ constexpr DiffuseMethod methods[] = {
      .tube = listing_13_mended},
 };
 
+// ---- Specular, 4.7.5 and 4.6 ----
+
+// Listing 16: lobes of rough surfaces lie nearer to the normal than the mirrored view.
+Vec3d dominant_direction(const LobeView& lobe) { return normalised(lobe.normal * lobe.alpha() + lobe.mirror * (1 - lobe.alpha())); }
+Vec3d mirror_direction(const LobeView& lobe) { return lobe.mirror; }
+
+// The light's point closest to where the ray comes closest to its plane: where they meet, or below the shading point.
+template <class Flat>
+Vec3d closest_by_plane(const Flat& light, const Vec3d& r) {
+  const double falling = -dot(r, light.normal);
+  return light.closest(falling > 0 ? r * (light.height() / falling) : light.normal * -light.height());
+}
+// The lobe's BRDF there times the illuminance.
+Rgb lit_from(const Vec3d& point, const LobeView& lobe, double lux) {
+  const double cosine = dot(lobe.normal, normalised(point));
+  return cosine > 0 ? lobe(point) * (lux / cosine) : Rgb{};
+}
+template <Vec3d (*direction)(const LobeView&)>
+Rgb plane_point(const RectView& rect, const LobeView& lobe) {
+  return lit_from(closest_by_plane(rect, direction(lobe)), lobe, listing_12_mended(rect, lobe.normal));
+}
+template <Vec3d (*direction)(const LobeView&)>
+Rgb plane_point(const DiskView& disk, const LobeView& lobe) {
+  return lit_from(closest_by_plane(disk, direction(lobe)), lobe, listing_10_disk_mended(disk, lobe.normal));
+}
+// Karis' points and normalisations.
+template <Vec3d (*direction)(const LobeView&)>
+Rgb sphere_point(const SphereView& sphere, const LobeView& lobe) {
+  return lit_from(closest_to_ray(sphere, direction(lobe)), lobe, sphere_mended(sphere, lobe.normal)) * sphere_normalisation(sphere, lobe);
+}
+template <Vec3d (*direction)(const LobeView&)>
+Rgb tube_point(const TubeView& tube, const LobeView& lobe) {
+  const SphereView sphere = nearest_sphere(tube, direction(lobe));
+  return lit_from(closest_to_ray(sphere, direction(lobe)), lobe, listing_13_mended(tube, lobe.normal)) *
+         (sphere_normalisation(sphere, lobe) * line_normalisation(tube, sphere, lobe));
+}
+
+// Listing 6: the disk's edge in the direction of the mirrored view, and the illuminance of the centre.
+Rgb listing_6(const SphereView& sun, const LobeView& lobe) {
+  const double cosine = dot(sun.centre, lobe.mirror), distance = std::sqrt(1 - sun.radius * sun.radius);
+  const Vec3d across = lobe.mirror - sun.centre * cosine;
+  const Vec3d point = cosine < distance ? sun.centre * distance + shader_normalise(across) * sun.radius : lobe.mirror;
+  return lit_from(point, lobe, pi * sun.radius * sun.radius * cosine_towards(sun.centre, lobe.normal));
+}
+
+constexpr SpecularRules rules_plane_point{.rect = plane_point<mirror_direction>,
+                                          .disk = plane_point<mirror_direction>,
+                                          .sphere = sphere_point<mirror_direction>,
+                                          .tube = tube_point<mirror_direction>};
+constexpr SpecularRules rules_16{.rect = plane_point<dominant_direction>,
+                                 .disk = plane_point<dominant_direction>,
+                                 .sphere = sphere_point<dominant_direction>,
+                                 .tube = tube_point<dominant_direction>};
+constexpr SpecularRules rules_6{.sun = listing_6};
+constexpr SpecularMethod specular[] = {
+    {"frostbite-point", "Lagarde and de Rousiers 2014, 4.7.5",
+     "The BRDF at the light's point that the mirrored view comes closest to, times the diffuse illuminance. Spheres and tubes with Karis' "
+     "normalisation; rectangles and disks have none and are up to (size / alpha)^2 too bright.",
+     published<rules_plane_point>},
+    {"frostbite-16", "Lagarde and de Rousiers 2014, listing 16", "The same for a direction between normal and mirrored view, by alpha.",
+     published<rules_16>},
+    {"frostbite-6", "Lagarde and de Rousiers 2014, listing 6",
+     "The sun's point closest to the mirrored view, times its illuminance, not normalised: (size / alpha)^2 too bright on polished "
+     "surfaces.",
+     published<rules_6>},
+};
+
 }  // namespace
 
 std::span<const DiffuseMethod> frostbite_methods() { return methods; }
+std::span<const SpecularMethod> frostbite_specular_methods() { return specular; }
 
 double frostbite_disk_cone(const DiskEmitter& disk, const SpotShape& cone, const Vec3d& position) {
   const Vec3d apex = disk.centre - disk.normal * (disk.radius / std::tan(cone.outer_rad));

@@ -31,24 +31,33 @@ ClippedQuad clipped(const std::array<Vec3d, 4>& quad, const Vec3d& n) {
   return out;
 }
 
-std::optional<double> DiffuseMethod::illuminance(const Emitter& emitter, const Vec3d& position, const Vec3d& n) const {
-  double lux = 0;
+std::optional<LightView> light_view(const Emitter& emitter, const Vec3d& position) {
   if (const auto* polygon = std::get_if<PolygonEmitter>(&emitter.shape)) {
-    const auto view = rect != nullptr ? rect_view(*polygon, emitter.two_sided, position) : std::nullopt;
-    if (!view) return std::nullopt;
-    lux = view->height() > 0 ? rect(*view, n) : 0;
-  } else if (const auto* d = std::get_if<DiskEmitter>(&emitter.shape); d != nullptr && disk != nullptr) {
+    const auto view = rect_view(*polygon, emitter.two_sided, position);
+    return view ? std::optional<LightView>(*view) : std::nullopt;
+  }
+  if (const auto* d = std::get_if<DiskEmitter>(&emitter.shape)) {
     DiskView view{d->centre - position, d->normal, d->radius};
     if (emitter.two_sided && view.height() < 0) view.normal = -view.normal;
-    lux = view.height() > 0 ? disk(view, n) : 0;
-  } else if (const auto* s = std::get_if<SphereEmitter>(&emitter.shape); s != nullptr && sphere != nullptr) {
-    lux = sphere({s->centre - position, s->radius}, n);
-  } else if (const auto* t = std::get_if<TubeEmitter>(&emitter.shape); t != nullptr && tube != nullptr && t->caps == Caps::round) {
-    lux = tube({t->a - position, t->b - position, t->radius}, n);
-  } else {
-    return std::nullopt;
+    return view;
   }
-  return std::isfinite(lux) ? lux : 0;
+  if (const auto* s = std::get_if<SphereEmitter>(&emitter.shape)) return SphereView{s->centre - position, s->radius};
+  if (const auto* t = std::get_if<TubeEmitter>(&emitter.shape); t != nullptr && t->caps == Caps::round)
+    return TubeView{t->a - position, t->b - position, t->radius};
+  return std::nullopt;
+}
+
+std::optional<double> DiffuseMethod::illuminance(const Emitter& emitter, const Vec3d& position, const Vec3d& n) const {
+  const std::optional<LightView> light = light_view(emitter, position);
+  if (!light) return std::nullopt;
+  return std::visit(
+      [&](const auto& view) -> std::optional<double> {
+        const auto rule = rule_for(*this, view);
+        if (rule == nullptr) return std::nullopt;
+        const double lux = in_front(view) ? rule(view, n) : 0;
+        return std::isfinite(lux) ? lux : 0;
+      },
+      *light);
 }
 
 std::span<const DiffuseMethod> diffuse_methods() {

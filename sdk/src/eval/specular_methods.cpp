@@ -1,6 +1,7 @@
 // The list of the specular methods, source by source.
 #include "etendue/specular_methods.h"
 
+#include "karis.h"
 #include "specular_moments.h"
 #include "specular_view.h"
 
@@ -16,6 +17,27 @@ std::optional<Rgb> moments(const Emitter& emitter, const ShadingPoint& point) {
   return luminance_of(emitter) * by_moments(emitter, point, *lobe);
 }
 
+// A small light at the centre; of a tube with the intensity across its axis, whatever its tilt.
+Rgb at_centre(const LobeView& lobe, const Vec3d& centre, double intensity) { return lobe(centre) * (intensity / dot(centre, centre)); }
+template <class Flat>
+Rgb flat_point(const Flat& light, const LobeView& lobe) {
+  return at_centre(lobe, light.centre, light.area() * light.height() / length(light.centre));
+}
+Rgb round_point(const SphereView& sphere, const LobeView& lobe) {
+  return at_centre(lobe, sphere.centre, pi * sphere.radius * sphere.radius);
+}
+Rgb tube_point(const TubeView& tube, const LobeView& lobe) { return at_centre(lobe, (tube.a + tube.b) * 0.5, intensity_across(tube)); }
+constexpr SpecularRules point_rules{.rect = flat_point<RectView>,
+                                    .disk = flat_point<DiskView>,
+                                    .sphere = round_point,
+                                    .tube = tube_point,
+                                    .sun = round_point,
+                                    .every_distribution = true};
+constexpr SpecularMethod baseline[] = {
+    {"punctual", "none", "A point of the same intensity at the light's centre: what area lights are to be better than.",
+     published<point_rules>},
+};
+
 constexpr SpecularMethod ours[] = {
     {"moments", "Etendue",
      "Exact but for the slow factor of the lobe, which is taken at four places, and for outlines in pieces; no table.", moments},
@@ -26,7 +48,9 @@ constexpr SpecularMethod ours[] = {
 std::span<const SpecularMethod> specular_methods() {
   static const std::vector<SpecularMethod> all = [] {
     std::vector<SpecularMethod> methods;
-    for (const std::span<const SpecularMethod> part : {ltc_methods(), std::span<const SpecularMethod>(ours)})
+    for (const std::span<const SpecularMethod> part :
+         {std::span<const SpecularMethod>(baseline), frostbite_specular_methods(), drobot_specular_methods(), karis_specular_methods(),
+          eden_specular_methods(), ltc_methods(), std::span<const SpecularMethod>(ours)})
       methods.insert(methods.end(), part.begin(), part.end());
     return methods;
   }();

@@ -1,5 +1,8 @@
 #include "specular_view.h"
 
+#include "facets.h"
+#include "microfacet.h"
+
 #include <cmath>
 
 namespace etendue::eval {
@@ -23,6 +26,58 @@ Rgb luminance_of(const Emitter& emitter) {
   if (sun == nullptr) return emitter.radiance;
   const double sine = std::sin(sun->radius_rad);
   return sun->illuminance / (pi * sine * sine);
+}
+
+namespace {
+
+// Round and of one reflection, under either name.
+std::optional<SpecularLobe> round_lobe(const Brdf& brdf, bool every_distribution) {
+  if (const auto* ggx = std::get_if<GgxLobe>(&brdf))
+    return SpecularLobe{.alpha_x = ggx->alpha, .alpha_y = ggx->alpha, .masking = ggx->masking, .f0 = ggx->f0, .f90 = ggx->f90};
+  const auto* lobe = std::get_if<SpecularLobe>(&brdf);
+  if (lobe == nullptr || lobe->alpha_x != lobe->alpha_y || lobe->compensation != nullptr) return std::nullopt;
+  if (!every_distribution && lobe->distribution != Distribution::ggx) return std::nullopt;
+  return *lobe;
+}
+
+}  // namespace
+
+LobeView::LobeView(const ShadingPoint& point, const SpecularLobe& of)
+    : lobe(of),
+      normal(point.normal),
+      surface_normal(point.surface_normal),
+      view(point.view),
+      mirror(point.normal * (2 * dot(point.normal, point.view)) - point.view),
+      frame(point) {
+  lobe.alpha_x = lobe.alpha_y = std::max(lobe.alpha_x, min_alpha);
+}
+
+Rgb LobeView::operator()(const Vec3d& direction, const SpecularLobe& other) const {
+  const double size = length(direction);
+  if (!(size > 0 && dot(surface_normal, direction) > 0)) return {};
+  return brdf_cos(other, frame.vector(view), frame.vector(direction / size));
+}
+
+double LobeView::density_ratio(const Vec3d& direction, double other_alpha) const {
+  const Vec3d half = frame.vector(view + normalised(direction));
+  const auto density = [&](double a) { return Facets(Distribution::ggx, a, a).density(half); };
+  return density(other_alpha) / density(alpha());
+}
+
+std::optional<Rgb> by_rules(const SpecularRules& rules, const Emitter& emitter, const ShadingPoint& point) {
+  const std::optional<SpecularLobe> lobe = round_lobe(point.brdf, rules.every_distribution);
+  if (!lobe || !is_uniform_area_light(emitter)) return std::nullopt;
+  const auto answer = [&](const auto& light, const auto& rule) -> std::optional<Rgb> {
+    if (rule == nullptr) return std::nullopt;
+    if (!(in_front(light) && dot(point.normal, point.view) > 0)) return Rgb{};
+    const Rgb value = luminance_of(emitter) * rule(light, LobeView(point, *lobe));
+    return std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z) ? value : Rgb{};
+  };
+  if (const auto* sun = std::get_if<DistantEmitter>(&emitter.shape))
+    return answer(SphereView{sun->towards, std::sin(sun->radius_rad)}, rules.sun);
+  const std::optional<LightView> seen = light_view(emitter, point.position);
+  if (!seen) return std::nullopt;
+  return std::visit([&](const auto& light) { return answer(light, rule_for(rules, light)); }, *seen);
 }
 
 }  // namespace etendue::eval

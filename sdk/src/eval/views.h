@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <variant>
 
 namespace etendue::eval {
 
@@ -52,6 +53,37 @@ struct TubeView {
   Vec3d a, b;  // centres of the caps
   double radius;
 };
+
+// A flat light from its emitting side (either, if it has two); a tube with round caps. Nothing for other shapes.
+using LightView = std::variant<RectView, DiskView, SphereView, TubeView>;
+std::optional<LightView> light_view(const Emitter& emitter, const Vec3d& position);
+
+// What a method does with the shape: null if it does not take it.
+template <class Method>
+auto rule_for(const Method& method, const RectView&) {
+  return method.rect;
+}
+template <class Method>
+auto rule_for(const Method& method, const DiskView&) {
+  return method.disk;
+}
+template <class Method>
+auto rule_for(const Method& method, const SphereView&) {
+  return method.sphere;
+}
+template <class Method>
+auto rule_for(const Method& method, const TubeView&) {
+  return method.tube;
+}
+// Whether the point is on the side that emits.
+template <class View>
+bool in_front(const View& view) {
+  if constexpr (requires { view.height(); }) {
+    return view.height() > 0;
+  } else {
+    return true;
+  }
+}
 
 inline double saturate(double x) { return std::clamp(x, 0.0, 1.0); }
 // As shaders do: the zero vector has no direction, and the result is not a number.
