@@ -92,6 +92,8 @@ double masked(const DiskLobe& lobe, double nl) {
 }
 
 constexpr double far_out = 0.25;
+// What is told of a cell's error, in units of what its coefficients say.
+constexpr double safety = 3;
 
 // vm = view.m, m2 = |m|^2: with the half vector h along (m.x, m.y, 1), v.h / n.h = vm + v.z and n.l = 2 v.h n.h - v.z.
 LobeWeight weight_at(const DiskLobe& lobe, double vm, double m2) {
@@ -101,7 +103,8 @@ LobeWeight weight_at(const DiskLobe& lobe, double vm, double m2) {
 
 // From the coefficients of the four highest degrees to the rule's error. Where they fall like rho^-k the rule errs by what they are at 2 N:
 // rho^-2 is the larger of the highest two over the larger of the two before, and the highest are followed to N + 1 degrees further. A power
-// less is taken here (2, 5/2 and 4 of 5/2, 7/2 and 11/2), and where all begins at once the square of the highest: rho^(2 - 2 N).
+// less is taken here (2, 5/2, 3 and 4 of 5/2, 7/2, 9/2 and 11/2); of four nodes, whose lower two are the mean and the slope, a^(5/2) at
+// least.
 struct Tail {
   std::array<double, told> coefficient{};
   double size = 0;
@@ -113,6 +116,7 @@ double left(const Tail& t) {
   const double r = high < low ? high / low : 1, a = t.coefficient[0] / t.size;
   if constexpr (N == 4) return std::min(high, std::max(high * r * r, t.size * a * a * std::sqrt(a)));
   if constexpr (N == 6) return std::min(high, high * r * r * std::sqrt(r));
+  if constexpr (N == 8) return std::min(high, high * r * r * r);
   return std::min(high, high * (r * r) * (r * r));
 }
 template <std::size_t N>
@@ -130,12 +134,13 @@ double outside(double p) {
   return less * less * more * more;
 }
 
-template <std::size_t N>
+template <std::size_t NX, std::size_t NT>
 void by_gauss(const DiskLobe& lobe, const LobeArc& arc, const LobeFan& fan, LobeCell& cell) {
-  const Gauss<N>& g = gauss<N>();
+  const Gauss<NX>& gx = gauss<NX>();
+  const Gauss<NT>& gt = gauss<NT>();
   const double base = fan.base;
-  std::array<std::array<double, N>, N> plain{}, risen{};
-  std::array<double, N> area{}, turns{};
+  std::array<std::array<double, NT>, NX> plain{}, risen{};
+  std::array<double, NX> area{}, turns{};
   const double x_span = cell.x1 - cell.x0, t_span = cell.t1 - cell.t0;
   // Away from the middle the azimuth may turn fast where the outline is far out: of what no longer hangs on p it takes the exact turn.
   const bool far = base > 0 || cell.x0 >= far_out || cell.x1 <= -far_out;
@@ -149,22 +154,22 @@ void by_gauss(const DiskLobe& lobe, const LobeArc& arc, const LobeFan& fan, Lobe
     const double per_q = q_length > 0 ? 1 / q_length : 0;
     const double row = factor * (base > 0 ? (p1 - base) * per_q : per_root) * 4 * t_span / pi;
     const double vm_x = lobe.view.x * q.x + lobe.view.y * q.y;
-    for (std::size_t j = 0; j < N; ++j) {
-      const double t = cell.t0 + t_span * g.x[j];
+    for (std::size_t j = 0; j < NT; ++j) {
+      const double t = cell.t0 + t_span * gt.x[j];
       // p over |q|
       const double ratio = base > 0 ? p_at(t, p1) * per_q : t * per_root;
       const double p = ratio * q_length, less = (1 - p) * (1 + p), more = 1 / (1 + p * p);
       const double stretch = 2 * ratio / less * lobe.alpha;  // slope m = stretch q
       const LobeWeight at = weight_at(lobe, stretch * vm_x, stretch * stretch * q2);
-      const double here = row * g.weight[j] * ratio * less * more * more * more;
+      const double here = row * gt.weight[j] * ratio * less * more * more * more;
       plain_row[j] = here * (at.shape * (1 - at.w) - fan.level.plain), risen_row[j] = here * (at.shape * at.w - fan.level.risen);
     }
   };
   cell.turned = 0;
-  for (std::size_t i = 0; i < N; ++i) {
-    const double x = cell.x0 + x_span * g.x[i], inner = 1 / ((1 - x) * (1 + x));
+  for (std::size_t i = 0; i < NX; ++i) {
+    const double x = cell.x0 + x_span * gx.x[i], inner = 1 / ((1 - x) * (1 + x));
     const LobeArc::Place place = arc.at(lobe, arc.kappa * x * inner);
-    const double weight = g.weight[i] * x_span * arc.kappa * (1 + x * x) * inner * inner * place.turn;
+    const double weight = gx.weight[i] * x_span * arc.kappa * (1 + x * x) * inner * inner * place.turn;
     const double q2 = place.q.x * place.q.x + place.q.y * place.q.y, per_root = 1 / (1 + std::sqrt(1 + q2)), p1 = std::sqrt(q2) * per_root;
     turns[i] = q2 > 0 ? weight / q2 : 0;
     cell.turned += turns[i];
@@ -180,39 +185,39 @@ void by_gauss(const DiskLobe& lobe, const LobeArc& arc, const LobeFan& fan, Lobe
   }
   Risen missed;
   if (const double off = std::abs(turn - cell.turned); far && off > 1e-14) {
-    std::array<double, N> plain_row{}, risen_row{};
+    std::array<double, NT> plain_row{}, risen_row{};
     for (const double x : {cell.x0, cell.x1}) {
       const Vec2d q = arc.at(lobe, arc.tau_of(x)).q;
       along(q, q.x * q.x + q.y * q.y, plain_row.data(), risen_row.data());
       double plain_sum = 0, risen_sum = 0;
-      for (std::size_t j = 0; j < N; ++j) plain_sum += plain_row[j], risen_sum += risen_row[j];
+      for (std::size_t j = 0; j < NT; ++j) plain_sum += plain_row[j], risen_sum += risen_row[j];
       missed.plain = std::max(missed.plain, off * std::abs(plain_sum)), missed.risen = std::max(missed.risen, off * std::abs(risen_sum));
     }
   }
   double area_sum = 0;
   Tail area_tail;
-  add(area_tail, g, area.data(), 1);
+  add(area_tail, gx, area.data(), 1);
   for (const double a : area) area_sum += a, area_tail.size += std::abs(a);
-  double area_error = left<N>(area_tail);
+  double area_error = left<NX>(area_tail);
   // Nor can the rule be right where it has not seen all of the turn, of which every ray has some area.
   if (!far) {
     double least = 1;
-    for (std::size_t i = 0; i < N; ++i) least = std::min(least, std::abs(area[i]) / std::max(std::abs(turns[i]), 1e-300));
+    for (std::size_t i = 0; i < NX; ++i) least = std::min(least, std::abs(area[i]) / std::max(std::abs(turns[i]), 1e-300));
     area_error = std::max(area_error, least * std::abs(turn - cell.turned));
   }
   if (far) area_sum += turn * all / (2 * pi);
-  const auto judge = [&](const std::array<std::array<double, N>, N>& f, double level, double ends, double& value, double& error,
+  const auto judge = [&](const std::array<std::array<double, NT>, NX>& f, double level, double ends, double& value, double& error,
                          double& along_x, double& along_t) {
     double sum = 0;
     Tail x, t;
-    for (std::size_t i = 0; i < N; ++i) {
-      add(t, g, f[i].data(), 1);
-      add(x, g, &f[0][i], N);
+    for (std::size_t i = 0; i < NX; ++i) {
+      add(t, gt, f[i].data(), 1);
       for (const double v : f[i]) sum += v, x.size += std::abs(v);
     }
+    for (std::size_t j = 0; j < NT; ++j) add(x, gx, &f[0][j], NT);
     t.size = x.size;
-    along_x = left<N>(x) + level * area_error + ends, along_t = left<N>(t);
-    value = sum + level * area_sum, error = along_x + along_t + 1e-15 * x.size;
+    along_x = left<NX>(x) + level * area_error + ends, along_t = left<NT>(t);
+    value = sum + level * area_sum, error = safety * (along_x + along_t) + 1e-15 * x.size;
   };
   double px = 0, pt = 0, rx = 0, rt = 0;
   judge(plain, fan.level.plain, missed.plain, cell.value.plain, cell.error.plain, px, pt);
@@ -228,12 +233,14 @@ LobeWeight weight_at(const DiskLobe& lobe, const Vec2d& m) {
 
 void evaluate(const DiskLobe& lobe, const LobeArc& arc, const LobeFan& fan, LobeRule rule, LobeCell& cell) {
   switch (rule) {
-    case LobeRule::gauss4:
-      return by_gauss<4>(lobe, arc, fan, cell);
-    case LobeRule::gauss6:
-      return by_gauss<6>(lobe, arc, fan, cell);
-    case LobeRule::gauss10:
-      return by_gauss<10>(lobe, arc, fan, cell);
+    case LobeRule::gauss6x4:
+      return by_gauss<6, 4>(lobe, arc, fan, cell);
+    case LobeRule::gauss6x6:
+      return by_gauss<6, 6>(lobe, arc, fan, cell);
+    case LobeRule::gauss8x6:
+      return by_gauss<8, 6>(lobe, arc, fan, cell);
+    case LobeRule::gauss10x8:
+      return by_gauss<10, 8>(lobe, arc, fan, cell);
   }
 }
 

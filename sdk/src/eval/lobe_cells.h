@@ -59,9 +59,18 @@ struct LobeCell {
   bool split_x = false;
 };
 
-// Gauss and Legendre's product rule of 4 x 4, 6 x 6 or 10 x 10 nodes.
-enum class LobeRule { gauss4, gauss6, gauss10 };
-constexpr std::size_t nodes_of(LobeRule rule) { return rule == LobeRule::gauss4 ? 16 : rule == LobeRule::gauss6 ? 36 : 100; }
+// Gauss and Legendre's product rules, by their nodes along the outline and along a ray: the one with the fewest nodes in all.
+enum class LobeRule { gauss6x4, gauss6x6, gauss8x6, gauss10x8 };
+constexpr LobeRule lobe_rule_for(double tolerance) {
+  return tolerance >= 5e-3   ? LobeRule::gauss6x4
+         : tolerance >= 5e-4 ? LobeRule::gauss6x6
+         : tolerance >= 2e-5 ? LobeRule::gauss8x6
+                             : LobeRule::gauss10x8;
+}
+constexpr std::size_t nodes_of(LobeRule rule) {
+  constexpr std::size_t nodes[] = {24, 36, 48, 80};
+  return nodes[static_cast<std::size_t>(rule)];
+}
 
 // W / F at the slopes m, and Schlick's weight there.
 struct LobeWeight {

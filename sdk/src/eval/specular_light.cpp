@@ -15,6 +15,8 @@ namespace etendue::eval {
 namespace {
 
 constexpr std::size_t most_cells = 20000;
+// Part of what is allowed that is left to what no cell is laid out for.
+constexpr double neglected = 0.25;
 
 double squared(const Vec2d& q) { return q.x * q.x + q.y * q.y; }
 double angle_between(const Vec2d& a, const Vec2d& b) { return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y); }
@@ -86,10 +88,8 @@ class Adaptive {
       : ggx_(ggx),
         lobe_(ggx, view),
         tolerance_(tolerance),
-        rule_(tolerance >= 2e-4   ? LobeRule::gauss4
-              : tolerance >= 1e-5 ? LobeRule::gauss6
-                                  : LobeRule::gauss10),
-        negligible_(0.1 * tolerance / contrast()) {}
+        rule_(lobe_rule_for(tolerance)),
+        negligible_(neglected * tolerance / contrast()) {}
 
   void add(const Contour& lit) {
     Outline outline{arcs_.size(), arcs_.size(), {}};
@@ -150,7 +150,7 @@ class Adaptive {
     for (int c = 0; c < 3; ++c) {
       const double v = of_channel(c, value_);
       estimate.value[c] = std::max(v, 0.0);
-      estimate.error[c] = of_channel(c, error_) + rounding * std::abs(v) + std::max(-v, 0.0);
+      estimate.error[c] = of_channel(c, error_) + neglected * allowed(c) + rounding * std::abs(v) + std::max(-v, 0.0);
     }
     return estimate;
   }
@@ -188,7 +188,7 @@ class Adaptive {
     if (!(lobe_.alpha > 0.05 * (1 - p))) return;
     const double from = 1 - base, layer = std::max(1 - p, 0.1 * lobe_.alpha);
     double at = from;
-    while (at > 5 * layer && at * std::min(lobe_.alpha, at) > negligible_ * from * from) mark(at *= 0.25);
+    while (at > 5 * layer && at * std::min(lobe_.alpha, at) > negligible_ * from * from) mark(at *= 0.0625);
   }
   // Masking bends within min(alpha, n.v) of the horizon, which a rule does not see that has no node there: heights above it that bound
   // cells, from the lowest below which there is something. An outline along the horizon has a layer there, any other, which only ends
@@ -282,12 +282,13 @@ class Adaptive {
 
   double of_channel(int c, const Risen& r) const { return ggx_.f0[c] * r.plain + ggx_.f90 * r.risen; }
   double largest_value() const { return std::max({of_channel(0, value_), of_channel(1, value_), of_channel(2, value_)}); }
-  // An error in units of what is allowed, in the worst channel.
+  double allowed(int c) const { return tolerance_ * std::max(of_channel(c, value_), floor_); }
+  // An error in units of what is allowed the cells, in the worst channel.
   double excess(const Risen& error) const {
     double worst = 0;
     for (int c = 0; c < 3; ++c) {
-      const double off = of_channel(c, error), allowed = tolerance_ * std::max(of_channel(c, value_), floor_);
-      if (off > 0) worst = std::max(worst, off / std::max(allowed, 1e-300));
+      const double off = of_channel(c, error);
+      if (off > 0) worst = std::max(worst, off / std::max((1 - neglected) * allowed(c), 1e-300));
     }
     return worst;
   }
