@@ -248,7 +248,7 @@ TEST(Ltc, NoLightGivesMoreThanItsLuminance) {
     if (dot(view, p.normal) < 0) view = -view;
     const double f0 = i % 3 == 0 ? 0.04 : 1;
     const ShadingPoint point{p.position, p.normal, p.normal, view, GgxLobe{random.log_uniform(1e-4, 1), {f0, f0, f0}}};
-    for (const std::string_view name : {"ltc-unclipped", "ltc", "ltc-two-lobes"}) {
+    for (const std::string_view name : {"ltc-four-terms", "ltc-unclipped", "ltc", "ltc-two-lobes"}) {
       const double value = through(name, p.emitter, point);
       EXPECT_TRUE(value >= 0 && value <= 1) << i << " " << name << " " << value;
     }

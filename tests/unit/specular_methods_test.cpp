@@ -10,6 +10,7 @@
 
 #include "../sdk/src/eval/cones.h"
 #include "../sdk/src/eval/facets.h"
+#include "../sdk/src/eval/hill_heitz.h"
 #include "../sdk/src/eval/karis.h"
 #include "eval_protocol.h"
 
@@ -335,6 +336,58 @@ TEST(PublishedSpecular, Frostbite16LeansTowardsTheNormal) {
   const Emitter overhead = ball({0, 0, 4}, 1);
   const ShadingPoint aslant = surface({}, {0, 0, 1}, view_of(0.3), mirror_lobe(1));
   EXPECT_NEAR(through("frostbite-16", overhead, aslant), lobe_of(aslant, {0, 0, 1}) * pi / 16, 1e-9);
+}
+
+// ---- Transformed cosines as others take them ----
+
+// A thin tube is its line: against the outline through the matrix, which knows the width.
+TEST(OthersLtc, ThinTubesAreLines) {
+  Random random(47);
+  for (int i = 0; i < 100; ++i) {
+    Placement p = place(Kind::capsule, random, true);
+    auto& tube = std::get<TubeEmitter>(p.emitter.shape);
+    tube.radius = 1e-5 * length(tube.b - tube.a);
+    Vec3d view = random.direction();
+    if (dot(view, p.normal) < 0) view = -view;
+    const ShadingPoint point = surface(p.position, p.normal, view, GgxLobe{random.log_uniform(0.05, 1), {1, 1, 1}});
+    // Seen from far off its axis: the outline's area errs by the width, the rounding of its edges by 1e-12 sr.
+    const double exact = through("ltc-unclipped", p.emitter, point);
+    EXPECT_NEAR(through("ltc-line", p.emitter, point), exact, 2e-3 * exact + 1e-9) << i;
+  }
+}
+// From the axis a short tube shows its end: a disk.
+TEST(OthersLtc, FromTheAxisATubeIsItsEnd) {
+  const Vec3d to = normalised(Vec3d{-0.3, 0.2, 1});
+  const Emitter tube = white(TubeEmitter{to * 10, to * 10.1, 0.05, Caps::round});
+  const ShadingPoint point = surface({}, {0, 0, 1}, view_of(0.8), mirror_lobe(0.3));
+  const double end = through("ltc-unclipped", disk(to * 10, -to, 0.05), point);
+  EXPECT_NEAR(through("ltc-line-ends", tube, point), end, 1e-3 * end);
+  EXPECT_EQ(through("ltc-line", tube, point), 0);
+}
+// The rational fit of the edges, 1e-4, where neither polygon nor sphere is cut by the cosine's horizon.
+TEST(OthersLtc, WhatNothingCutsNeedsNoSphere) {
+  for (const double alpha : {0.05, 0.3, 1.0}) {
+    const ShadingPoint point = surface({}, {0, 0, 1}, view_of(0.9), mirror_lobe(alpha));
+    const Emitter light = square(mirror_of(0.9), -mirror_of(0.9), 0.1);
+    const double exact = through("ltc-unclipped", light, point);
+    EXPECT_NEAR(through("ltc-sphere", light, point), exact, 2e-4 * exact);
+  }
+}
+// At its nodes the four-term table is ours; between them it is not.
+TEST(OthersLtc, FourTermsAreOursAtTheirNodes) {
+  for (const int row : {5, 20, 60}) {
+    for (const int column : {0, 10, 40, 60}) {
+      const double root = row / 63.0, alpha = root * root, cosine = std::cos(0.5 * pi * column / 63);
+      for (const Vec3d& light : {mirror_of(cosine), Vec3d{0, 0, 1}, normalised(mirror_of(cosine) + Vec3d{0, alpha, 0})}) {
+        const double ours = ltc_table().at(alpha, cosine).whole.density(light);
+        EXPECT_NEAR(four_term_cosine(alpha, cosine).density(light), ours, 1e-6 * ours + 1e-12);
+      }
+    }
+  }
+  // Half way between two nodes in each direction, for a lobe narrower than a step of the view's angle.
+  const double root = 4.5 / 63, alpha = root * root, cosine = std::cos(0.5 * pi * 40.5 / 63);
+  const double ours = ltc_table().at(alpha, cosine).whole.density(mirror_of(cosine));
+  EXPECT_GT(std::abs(four_term_cosine(alpha, cosine).density(mirror_of(cosine)) / ours - 1), 0.01);
 }
 
 // ---- Everywhere ----

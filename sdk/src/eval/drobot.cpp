@@ -202,18 +202,15 @@ std::array<Vec3d, 4> lobe_corners(const LobeView& lobe) {
 Rgb elongated(const RectView& rect, const LobeView& lobe) { return as_small_light(rect, lobe, pyramid_on(rect, lobe_corners(lobe))); }
 
 constexpr std::string_view specular_equation = "Drobot 2014 (GPU Pro 5), eq 1.20";
-constexpr SpecularRules rules_20{.rect = equation_20, .disk = equation_20, .every_distribution = true};
-constexpr SpecularRules rules_elongated{.rect = elongated, .every_distribution = true};
+constexpr SpecularRules rules_20{.rect = equation_20, .disk = equation_20, .lobes = Lobes::every};
+constexpr SpecularRules rules_elongated{.rect = elongated, .lobes = Lobes::every};
 constexpr SpecularRules rules_20_mended{.rect = equation_20_mended<RectView>,
                                         .disk = equation_20_mended<DiskView>,
                                         .sphere = equation_20_mended<SphereView>,
                                         .sun = equation_20_mended<SphereView>,
-                                        .every_distribution = true};
-constexpr SpecularRules rules_fitted{.rect = fitted<RectView>,
-                                     .disk = fitted<DiskView>,
-                                     .sphere = fitted<SphereView>,
-                                     .sun = fitted<SphereView>,
-                                     .every_distribution = true};
+                                        .lobes = Lobes::every};
+constexpr SpecularRules rules_fitted{
+    .rect = fitted<RectView>, .disk = fitted<DiskView>, .sphere = fitted<SphereView>, .sun = fitted<SphereView>, .lobes = Lobes::every};
 constexpr SpecularMethod specular[] = {
     {"drobot-1-20", specular_equation,
      "What a cone of half angle alpha meets of the light, as a small light. Printed: A_S divides, so that the answer changes with the unit "

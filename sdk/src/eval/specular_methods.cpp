@@ -32,7 +32,7 @@ constexpr SpecularRules point_rules{.rect = flat_point<RectView>,
                                     .sphere = round_point,
                                     .tube = tube_point,
                                     .sun = round_point,
-                                    .every_distribution = true};
+                                    .lobes = Lobes::every};
 constexpr SpecularMethod baseline[] = {
     {"punctual", "none", "A point of the same intensity at the light's centre: what area lights are to be better than.",
      published<point_rules>},
@@ -50,7 +50,7 @@ std::span<const SpecularMethod> specular_methods() {
     std::vector<SpecularMethod> methods;
     for (const std::span<const SpecularMethod> part :
          {std::span<const SpecularMethod>(baseline), frostbite_specular_methods(), drobot_specular_methods(), karis_specular_methods(),
-          eden_specular_methods(), ltc_methods(), std::span<const SpecularMethod>(ours)})
+          eden_specular_methods(), hill_heitz_specular_methods(), ltc_methods(), std::span<const SpecularMethod>(ours)})
       methods.insert(methods.end(), part.begin(), part.end());
     return methods;
   }();

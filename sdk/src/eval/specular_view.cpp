@@ -30,13 +30,18 @@ Rgb luminance_of(const Emitter& emitter) {
 
 namespace {
 
-// Round and of one reflection, under either name.
-std::optional<SpecularLobe> round_lobe(const Brdf& brdf, bool every_distribution) {
-  if (const auto* ggx = std::get_if<GgxLobe>(&brdf))
-    return SpecularLobe{.alpha_x = ggx->alpha, .alpha_y = ggx->alpha, .masking = ggx->masking, .f0 = ggx->f0, .f90 = ggx->f90};
+SpecularLobe general(const GgxLobe& lobe) {
+  return {.alpha_x = lobe.alpha, .alpha_y = lobe.alpha, .masking = lobe.masking, .f0 = lobe.f0, .f90 = lobe.f90};
+}
+std::optional<SpecularLobe> taken_lobe(const Brdf& brdf, Lobes lobes) {
+  if (lobes == Lobes::correlated_ggx) {
+    const std::optional<GgxLobe> ggx = correlated_ggx(brdf);
+    return ggx ? std::optional(general(*ggx)) : std::nullopt;
+  }
+  if (const auto* ggx = std::get_if<GgxLobe>(&brdf)) return general(*ggx);
   const auto* lobe = std::get_if<SpecularLobe>(&brdf);
   if (lobe == nullptr || lobe->alpha_x != lobe->alpha_y || lobe->compensation != nullptr) return std::nullopt;
-  if (!every_distribution && lobe->distribution != Distribution::ggx) return std::nullopt;
+  if (lobes == Lobes::ggx && lobe->distribution != Distribution::ggx) return std::nullopt;
   return *lobe;
 }
 
@@ -65,7 +70,7 @@ double LobeView::density_ratio(const Vec3d& direction, double other_alpha) const
 }
 
 std::optional<Rgb> by_rules(const SpecularRules& rules, const Emitter& emitter, const ShadingPoint& point) {
-  const std::optional<SpecularLobe> lobe = round_lobe(point.brdf, rules.every_distribution);
+  const std::optional<SpecularLobe> lobe = taken_lobe(point.brdf, rules.lobes);
   if (!lobe || !is_uniform_area_light(emitter)) return std::nullopt;
   const auto answer = [&](const auto& light, const auto& rule) -> std::optional<Rgb> {
     if (rule == nullptr) return std::nullopt;

@@ -33,6 +33,21 @@ struct LobeView {
   LocalFrame frame;
 };
 
+// The shading point turned so that the view lies in the plane x >= 0, y = 0 of its normal; any plane will do for a view along the normal.
+struct ViewFrame {
+  Vec3d x, y, z;
+  double cosine;
+  ViewFrame(const Vec3d& normal, const Vec3d& view) : z(normal), cosine(dot(normal, view)) {
+    const Vec3d across = view - normal * cosine;
+    x = dot(across, across) > 1e-30 ? normalised(across) : basis_around(normal).tangent;
+    y = cross(z, x);
+  }
+  Vec3d vector(const Vec3d& v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
+};
+
+// Round lobes of one reflection that a method takes.
+enum class Lobes { correlated_ggx, ggx, every };
+
 // A published method: one function a shape that it takes, given the light of 1 cd/m2 relative to the point.
 struct SpecularRules {
   Rgb (*rect)(const RectView&, const LobeView&) = nullptr;
@@ -40,7 +55,7 @@ struct SpecularRules {
   Rgb (*sphere)(const SphereView&, const LobeView&) = nullptr;
   Rgb (*tube)(const TubeView&, const LobeView&) = nullptr;
   Rgb (*sun)(const SphereView&, const LobeView&) = nullptr;  // of the distance 1
-  bool every_distribution = false;                           // not GGX alone
+  Lobes lobes = Lobes::ggx;
 };
 // As SpecularMethod::luminance. Where a printed form divides by zero or leaves the domain of its functions the answer is 0.
 std::optional<Rgb> by_rules(const SpecularRules& rules, const Emitter& emitter, const ShadingPoint& point);
@@ -53,6 +68,7 @@ std::span<const SpecularMethod> frostbite_specular_methods();
 std::span<const SpecularMethod> drobot_specular_methods();
 std::span<const SpecularMethod> karis_specular_methods();
 std::span<const SpecularMethod> eden_specular_methods();
+std::span<const SpecularMethod> hill_heitz_specular_methods();
 std::span<const SpecularMethod> ltc_methods();
 
 }  // namespace etendue::eval
