@@ -2,6 +2,7 @@
 // off by more than was asked, the worst error in units of that, answers that told a larger error, mean evaluations and ns; those of
 // `reference` at that tolerance (a part of the configurations) and of `ltc` one by one, ns.
 //   adaptive_errors [CONFIGURATIONS [SEED [SHAPE]]]
+// Each answer that was off by more is told on stderr.
 // Half of the lights cross the horizon. Half of the views have the mirror direction within the light, a quarter has a cosine uniform in
 // [.05, 1], a quarter one that is log-uniform from 1e-4 on; alpha is log-uniform from 1e-4 on; F = 1 and f0 = .04; a third has separable
 // masking.
@@ -115,7 +116,13 @@ int main(int argc, char** argv) {
           truth = reference(p.emitter, point, {aimed, aimed * floor});
         }
         const double allowed = tolerance * std::max(truth.value.x, floor);
-        f.worst = std::max(f.worst, off()), f.broken += !(off() <= 1 + truth.error.x / allowed);
+        f.worst = std::max(f.worst, off());
+        if (!(off() <= 1 + truth.error.x / allowed)) {
+          ++f.broken;
+          fmt::print(stderr,
+                     "{} number {} asked {:g}: off by {:.3g}, told {:.3g} of it; alpha {:.3g} n.v {:.3g} f0 {:g} value {:.6g} E {:.3g}\n",
+                     name, i, tolerance, off(), light.error.x / allowed, alpha, dot(point.view, p.normal), f0, truth.value.x, lux.x);
+        }
         f.told_more += !(light.error.x <= allowed * 1.01 + 1e-15);
         if (i % 16 == 0) {
           const Stopwatch reference_watch;

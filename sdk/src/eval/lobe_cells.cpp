@@ -102,9 +102,9 @@ LobeWeight weight_at(const DiskLobe& lobe, double vm, double m2) {
 }
 
 // From the coefficients of the four highest degrees to the rule's error. Where they fall like rho^-k the rule errs by what they are at 2 N:
-// rho^-2 is the larger of the highest two over the larger of the two before, and the highest are followed to N + 1 degrees further. A power
-// less is taken here (2, 5/2, 3 and 4 of 5/2, 7/2, 9/2 and 11/2); of four nodes, whose lower two are the mean and the slope, a^(5/2) at
-// least.
+// rho^-2 is the larger of the highest two over the larger of the two before, and N + 1 degrees further on they are rho^-(N + 1) of the
+// highest. Only four are taken, because what falls more slowly may be hidden below what is seen; of four nodes, whose lower two are the
+// mean and the slope, a^(5/2) at least, a the highest of all.
 struct Tail {
   std::array<double, told> coefficient{};
   double size = 0;
@@ -113,11 +113,9 @@ template <std::size_t N>
 double left(const Tail& t) {
   if (!(t.size > 0)) return 0;
   const double high = std::max(t.coefficient[0], t.coefficient[1]), low = std::max(t.coefficient[2], t.coefficient[3]);
-  const double r = high < low ? high / low : 1, a = t.coefficient[0] / t.size;
-  if constexpr (N == 4) return std::min(high, std::max(high * r * r, t.size * a * a * std::sqrt(a)));
-  if constexpr (N == 6) return std::min(high, high * r * r * std::sqrt(r));
-  if constexpr (N == 8) return std::min(high, high * r * r * r);
-  return std::min(high, high * (r * r) * (r * r));
+  const double r = high < low ? high / low : 1, a = t.coefficient[0] / t.size, followed = std::min(high, high * r * r);
+  if constexpr (N == 4) return std::max(followed, std::min(high, t.size * a * a * std::sqrt(a)));
+  return followed;
 }
 template <std::size_t N>
 void add(Tail& t, const Gauss<N>& g, const double* row, std::size_t stride) {
@@ -128,6 +126,10 @@ void add(Tail& t, const Gauss<N>& g, const double* row, std::size_t stride) {
   }
 }
 
+double p_of(const Vec2d& q) {
+  const double q2 = q.x * q.x + q.y * q.y;
+  return std::sqrt(q2) / (1 + std::sqrt(1 + q2));
+}
 // 1 - r^2 at the radius that p stands for.
 double outside(double p) {
   const double less = (1 - p) * (1 + p), more = 1 / (1 + p * p);
@@ -147,7 +149,9 @@ void by_gauss(const DiskLobe& lobe, const LobeArc& arc, const LobeFan& fan, Lobe
   const Vec2d from = arc.at(lobe, arc.tau_of(cell.x0)).q, to = arc.at(lobe, arc.tau_of(cell.x1)).q;
   const double turn = std::atan2(from.x * to.y - from.y * to.x, from.x * to.x + from.y * to.y);
   const auto p_at = [&](double t, double p1) { return base + t * (p1 - base); };
-  const double all = outside(p_at(cell.t0, 1)) - outside(p_at(cell.t1, 1));
+  // A thin outline has no area that does not hang on p.
+  const bool exact_turn = far && (base == 0 || outside(p_of(arc.at(lobe, arc.tau_of(0.5 * (cell.x0 + cell.x1))).q)) < 0.25 * outside(base));
+  const double all = exact_turn ? outside(p_at(cell.t0, 1)) - outside(p_at(cell.t1, 1)) : 0;
   // Along one ray from the base: what is in it of the remainder, a turn of the azimuth.
   const auto along = [&](const Vec2d& q, double factor, double* plain_row, double* risen_row) {
     const double q2 = q.x * q.x + q.y * q.y, per_root = 1 / (1 + std::sqrt(1 + q2)), q_length = std::sqrt(q2), p1 = q_length * per_root;
@@ -200,12 +204,12 @@ void by_gauss(const DiskLobe& lobe, const LobeArc& arc, const LobeFan& fan, Lobe
   for (const double a : area) area_sum += a, area_tail.size += std::abs(a);
   double area_error = left<NX>(area_tail);
   // Nor can the rule be right where it has not seen all of the turn, of which every ray has some area.
-  if (!far) {
+  if (!exact_turn) {
     double least = 1;
     for (std::size_t i = 0; i < NX; ++i) least = std::min(least, std::abs(area[i]) / std::max(std::abs(turns[i]), 1e-300));
     area_error = std::max(area_error, least * std::abs(turn - cell.turned));
   }
-  if (far) area_sum += turn * all / (2 * pi);
+  area_sum += turn * all / (2 * pi);
   const auto judge = [&](const std::array<std::array<double, NT>, NX>& f, double level, double ends, double& value, double& error,
                          double& along_x, double& along_t) {
     double sum = 0;

@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t most_cells = 20000;
 // Part of what is allowed that is left to what no cell is laid out for.
 constexpr double neglected = 0.25;
+constexpr double least_share = 1e-6;
 
 double squared(const Vec2d& q) { return q.x * q.x + q.y * q.y; }
 double angle_between(const Vec2d& a, const Vec2d& b) { return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y); }
@@ -128,20 +129,23 @@ class Adaptive {
   // Of a light of the luminance 1. floor(): what the tolerance is a part of where the value is less, asked for if it may be.
   template <class Floor>
   Estimate integrate(const Floor& floor_of) {
-    for (Outline& outline : outlines_) {
-      const std::size_t before = cells_.size();
-      begin(outline);
-      // If the outline turns about the middle all the same.
-      double turned = 0;
-      for (std::size_t i = before; i < cells_.size(); ++i) turned += cells_[i].t1 == 1 ? cells_[i].turned : 0;
-      if (outline.fan.base > 0 && std::abs(turned) > 1) {
-        cells_.resize(before);
-        outline.fan.base = 0;
-        begin(outline);
-      }
-    }
+    begin_all();
     add_up();
     floor_ = largest_value() < 1e-3 * pi ? floor_of() : 0;
+    // What is negligible is so beside the light, not beside what cancels.
+    double size = 0, light = 0;
+    for (int c = 0; c < 3; ++c) {
+      light = std::max({light, of_channel(c, value_), floor_});
+      double sum = 0;
+      for (const LobeCell& cell : cells_) sum += std::abs(of_channel(c, cell.value));
+      size = std::max(size, sum);
+    }
+    if (size > 4 * light && size > 0) {
+      negligible_ *= std::max(light / size, least_share);
+      cells_.clear();
+      begin_all();
+      add_up();
+    }
     if (excess(error_) > 1) refine();
     // 1 - p is alpha where the slopes are 1.
     const double rounding = 1e-13 + 1e-15 / lobe_.alpha;
@@ -186,16 +190,18 @@ class Adaptive {
   template <class Mark>
   void grade_rim(double base, double p, const Mark& mark) const {
     if (!(lobe_.alpha > 0.05 * (1 - p))) return;
-    const double from = 1 - base, layer = std::max(1 - p, 0.1 * lobe_.alpha);
+    const double from = 1 - base, end = std::max(1 - p, 0.1 * lobe_.alpha);
+    const double closer = tolerance_ >= 5e-4 ? 0.0625 : 0.25;
     double at = from;
-    while (at > 5 * layer && at * std::min(lobe_.alpha, at) > negligible_ * from * from) mark(at *= 0.0625);
+    while (at > 5 * end && at * std::min(lobe_.alpha, at) > negligible_ * from * from) mark(at *= closer);
   }
+  double layer() const { return std::min(lobe_.alpha, lobe_.view.z); }
   // Masking bends within min(alpha, n.v) of the horizon, which a rule does not see that has no node there: heights above it that bound
   // cells, from the lowest below which there is something. An outline along the horizon has a layer there, any other, which only ends
   // there, the square of it.
   template <class Mark>
   void grade_heights(double lowest, double highest, bool along, const Mark& mark) const {
-    double height = std::max(2 * std::min(lobe_.alpha, lobe_.view.z), highest * (along ? negligible_ : std::sqrt(negligible_)));
+    double height = std::max(2 * layer(), highest * (along ? negligible_ : std::sqrt(negligible_)));
     if (lowest > height) return;
     while (height < 0.5 * highest) {
       mark(height);
@@ -238,11 +244,12 @@ class Adaptive {
       if (t > t0 && t < t1) ts.push_back(t);
     };
     if (t1 == 1) {
+      const bool along = std::max({arc.height(arc.tau_of(x0)), arc.height(arc.tau_of(x)), arc.height(arc.tau_of(x1))}) < 4 * layer();
       Rise steepest;
       for (const double at : {x0, x, x1})
         if (const Rise rise = rise_at(arc, base, at); rise.slope > steepest.slope) steepest = rise;
       if (steepest.slope > 0)
-        grade_heights(steepest.low, steepest.slope, arc.horizon, [&](double h) { mark(1 - (h - steepest.low) / steepest.slope); });
+        grade_heights(steepest.low, steepest.slope, along, [&](double h) { mark(1 - (h - steepest.low) / steepest.slope); });
     }
     grade_rim(base, p, [&](double away) { mark((1 - away - base) / length); });
     std::sort(ts.begin(), ts.end());
@@ -270,6 +277,21 @@ class Adaptive {
       std::sort(xs.begin(), xs.end());
       for (std::size_t j = 0; j + 1 < xs.size(); ++j)
         if (xs[j + 1] > xs[j]) add_cells(cells_, static_cast<std::uint32_t>(i), xs[j], xs[j + 1], 0, 1);
+    }
+  }
+
+  void begin_all() {
+    for (Outline& outline : outlines_) {
+      const std::size_t before = cells_.size();
+      begin(outline);
+      // If the outline turns about the middle all the same.
+      double turned = 0;
+      for (std::size_t i = before; i < cells_.size(); ++i) turned += cells_[i].t1 == 1 ? cells_[i].turned : 0;
+      if (outline.fan.base > 0 && std::abs(turned) > 1) {
+        cells_.resize(before);
+        outline.fan.base = 0;
+        begin(outline);
+      }
     }
   }
 
