@@ -3,6 +3,7 @@
 #include "light_curves.h"
 #include "lobe_curves.h"
 #include "peers.h"
+#include "specular_curves.h"
 
 #include "etendue/batch.h"
 #include "etendue/camera.h"
@@ -184,6 +185,8 @@ int main() {
                     {"specular_albedos", specular_albedos(0.5)},
                     {"passed_on_light", passed_on_light()},
                     {"fresnel_terms", fresnel_terms()},
+                    {"sphere_highlights", sphere_highlights()},
+                    {"rect_method_errors", rect_method_errors()},
                     {"light_outlines", light_outlines()},
                     {"sphere_units", sphere_units()},
                     {"sphere_without_horizon", sphere_without_horizon()},

@@ -222,6 +222,23 @@ TEST(PublishedSpecular, Drobot23ExchangesItsCorners) {
   EXPECT_EQ(through("drobot-1-20", light, point), 0);
   EXPECT_NEAR(through("drobot-1-20-mended", light, point), lobe_of(point, {0, 0, 1}) * 1e-4, 1e-8);
 }
+// Drobot, eq 1.21: a disk well inside the cone is all lit; as printed nothing is left of it.
+TEST(PublishedSpecular, Drobot21LacksABracket) {
+  const ShadingPoint point = surface({}, {0, 0, 1}, {0, 0, 1}, mirror_lobe(0.1));
+  const Emitter light = disk({1e-6, 0, 1}, {0, 0, -1}, 0.01);
+  EXPECT_EQ(through("drobot-1-20", light, point), 0);
+  EXPECT_NEAR(through("drobot-1-20-mended", light, point), lobe_of(point, {0, 0, 1}) * pi * 1e-4, 1e-7);
+}
+// Drobot, eq 1.22: a disk that contains the cone's, on either side of it by next to nothing, gives the same. As printed the place lies on
+// the one or on the other side, by half the difference of the radii.
+TEST(PublishedSpecular, Drobot22JumpsWhereOneContainsTheOther) {
+  const ShadingPoint point = surface({}, {0, 0, 1}, view_of(0.3), mirror_lobe(0.1));
+  const Vec3d to = mirror_of(0.3), across = cross(to, Vec3d{0, 1, 0});
+  const Emitter one = disk(to + across * 1e-9, -to, 0.2), other = disk(to - across * 1e-9, -to, 0.2);
+  const double mended = through("drobot-1-20-mended", one, point), printed = through("drobot-1-20", one, point);
+  EXPECT_NEAR(through("drobot-1-20-mended", other, point), mended, 1e-6 * mended);
+  EXPECT_GT(std::abs(through("drobot-1-20", other, point) - printed), 0.01 * printed);
+}
 // Drobot, eq 1.21 and 1.22 (Oat 2006): all of the smaller disk, about its centre, where one contains the other; nothing where they touch.
 // Between, a smooth step for the lens of two segments: up to .161 of the disk too much where both are alike.
 TEST(DiskOverlap, IsTheLensToASixth) {

@@ -1,6 +1,6 @@
 // The area lights of the Eden engine: Karis' and Frostbite's put together. Its luminosity is a free number; here it is the intensity (cd)
-// of the light of 1 cd/m2 across it. The point of the light that the mirrored view is closest to gives the distance; the view is along the
-// normal, the range that its falloffs end at is none.
+// of the light of 1 cd/m2 across it. The point of the light that the mirrored view is closest to gives the distance, for diffuse light as
+// if seen along the normal; the range that its falloffs end at is none.
 #include "karis.h"
 #include "representative_point.h"
 #include "solid_angle.h"

@@ -1,4 +1,4 @@
-// Lagarde and de Rousiers, "Moving Frostbite to Physically Based Rendering 3.0" (2014), 4.7.2 and appendix E.
+// Lagarde and de Rousiers, "Moving Frostbite to Physically Based Rendering 3.0" (2014), 4.6, 4.7.2, 4.7.5 and appendix E.
 #include "contour.h"
 #include "karis.h"
 #include "punctual.h"

@@ -389,21 +389,12 @@ class Adaptive {
   std::uint64_t evaluations_ = 0;
 };
 
-// Round GGX with Schlick's Fresnel, under either name.
-std::optional<GgxLobe> taken_lobe(const Brdf& brdf) {
-  if (const auto* ggx = std::get_if<GgxLobe>(&brdf)) return *ggx;
-  const auto* lobe = std::get_if<SpecularLobe>(&brdf);
-  if (lobe == nullptr || lobe->distribution != Distribution::ggx || lobe->alpha_x != lobe->alpha_y) return std::nullopt;
-  if (lobe->fresnel != Fresnel::schlick || lobe->compensation != nullptr) return std::nullopt;
-  return GgxLobe{lobe->alpha_x, lobe->f0, lobe->f90, lobe->masking};
-}
-
 double brightest(const Rgb& c) { return std::max({c.x, c.y, c.z}); }
 
 }  // namespace
 
 std::optional<Estimate> specular_luminance(const Emitter& emitter, const ShadingPoint& point, double tolerance) {
-  const std::optional<GgxLobe> lobe = taken_lobe(point.brdf);
+  const std::optional<GgxLobe> lobe = round_ggx(point.brdf);
   if (!lobe || !is_uniform_area_light(emitter)) return std::nullopt;
   const LocalFrame frame(point.position, point.normal);
   const Vec3d view = frame.vector(point.view);

@@ -7,12 +7,16 @@
 
 namespace etendue::eval {
 
-std::optional<GgxLobe> correlated_ggx(const Brdf& brdf) {
-  if (const auto* ggx = std::get_if<GgxLobe>(&brdf)) return ggx->masking == Masking::correlated ? std::optional(*ggx) : std::nullopt;
+std::optional<GgxLobe> round_ggx(const Brdf& brdf) {
+  if (const auto* ggx = std::get_if<GgxLobe>(&brdf)) return *ggx;
   const auto* lobe = std::get_if<SpecularLobe>(&brdf);
   if (lobe == nullptr || lobe->distribution != Distribution::ggx || lobe->alpha_x != lobe->alpha_y) return std::nullopt;
-  if (lobe->masking != Masking::correlated || lobe->fresnel != Fresnel::schlick || lobe->compensation != nullptr) return std::nullopt;
+  if (lobe->fresnel != Fresnel::schlick || lobe->compensation != nullptr) return std::nullopt;
   return GgxLobe{lobe->alpha_x, lobe->f0, lobe->f90, lobe->masking};
+}
+std::optional<GgxLobe> correlated_ggx(const Brdf& brdf) {
+  const std::optional<GgxLobe> lobe = round_ggx(brdf);
+  return lobe && lobe->masking == Masking::correlated ? lobe : std::nullopt;
 }
 
 bool is_uniform_area_light(const Emitter& emitter) {

@@ -10,8 +10,9 @@
 
 namespace etendue::eval {
 
-// Round height-correlated GGX with Schlick's Fresnel, under either name; nothing for any other BRDF.
-std::optional<GgxLobe> correlated_ggx(const Brdf& brdf);
+// Round GGX with Schlick's Fresnel, under either name; nothing for any other BRDF.
+std::optional<GgxLobe> round_ggx(const Brdf& brdf);
+std::optional<GgxLobe> correlated_ggx(const Brdf& brdf);  // of height-correlated masking
 // An area light of one luminance, without a window.
 bool is_uniform_area_light(const Emitter& emitter);
 // cd/m2 of such a light: of a sun its illuminance over pi sin^2 of its angular radius.
