@@ -17,6 +17,7 @@
 #include "etendue/diffuse_light.h"
 #include "etendue/directional_albedo.h"
 #include "etendue/illuminance_batch.h"
+#include "etendue/light_within.h"
 #include "etendue/published.h"
 #include "etendue/render.h"
 #include "etendue/rig_batch.h"
@@ -180,9 +181,9 @@ class Evaluator {
   const eval::DiffuseRule* rule_ = nullptr;         // of other diffuse BRDFs
   const eval::SpecularMethod* specular_ = nullptr;  // of specular lobes
   std::optional<eval::Sampling> sampling_;
-  bool adaptive_ = false;        // of specular lobes, where it takes the light
-  bool named_adaptive_ = false;  // every light has to be one that it takes
-  bool closed_ = true;           // closed forms where there are any
+  bool adaptive_ = false;  // of specular lobes
+  bool planned_ = false;   // whatever keeps the tolerance
+  bool closed_ = true;     // closed forms where there are any
   eval::Brdf brdf_;
   Vec3d tangent_;
   double tolerance_ = 1e-4;
@@ -212,8 +213,8 @@ Result<Evaluator> Evaluator::of(const Options& o) {
   }
   if (o.samples || o.seed)
     return usage(fmt::format("--{}: expected --method monte-carlo with it, found {}", o.samples ? "samples" : "seed", o.method));
-  e.adaptive_ = distributions.contains(o.brdf) && (o.tolerance_alone || o.method == "adaptive");
-  e.named_adaptive_ = e.adaptive_ && !o.tolerance_alone;
+  e.adaptive_ = distributions.contains(o.brdf) && o.method == "adaptive";
+  e.planned_ = o.tolerance_alone && !e.lambert_;
   if (o.method == "exact" || o.method == "reference" || e.adaptive_) {
     e.closed_ = o.method != "reference";
     return e;
@@ -268,7 +269,7 @@ Status Evaluator::accepts(const Emitter& emitter, const std::string& name) const
       !(has_closed_form(emitter) && !is_window(emitter.window) && published_->illuminance(emitter, probe.position, probe.normal)))
     return refused(published_->name);
   if (rule_ != nullptr && !rule_->luminance(emitter, shading_point(probe))) return refused(rule_->name);
-  if (named_adaptive_ && !adaptively(emitter, probe)) {
+  if (adaptive_ && !adaptively(emitter, probe)) {
     return Error{"METHOD_UNSUPPORTED",
                  fmt::format("light '{}': expected an area light without pattern or range and round GGX of Schlick's Fresnel, which "
                              "adaptive takes",
@@ -328,8 +329,11 @@ Answer Evaluator::by_samples(const Emitter& emitter, const PointRow& p) const {
 
 Answer Evaluator::operator()(const Emitter& emitter, const PointRow& p) const {
   if (sampling_) return by_samples(emitter, p);
-  if (adaptive_)
-    if (const std::optional<Answer> answer = adaptively(emitter, p)) return *answer;
+  if (adaptive_) return adaptively(emitter, p).value_or(Answer{{}, 0, "adaptive"});
+  if (planned_) {
+    const eval::LightWithin found = eval::light_within(emitter, shading_point(p), tolerance_);
+    return {found.light.value, largest(found.light.error), found.way};
+  }
   if (published_ != nullptr) {
     // What a published approximation is off by is measured here, against the closed form.
     const std::optional<double> sr = published_->illuminance(emitter, p.position, p.normal);
@@ -567,9 +571,10 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
               "--method", options->method,
               "exact, fast (floats; of other diffuse BRDFs a few dozen evaluations, whose bound is an estimate that 99 of 100 keep), "
               "reference, monte-carlo (samples of the light, with a statistical bound), or a method's name: published ones of diffuse "
-              "light; of ggx adaptive (to --tolerance, by the fewest evaluations; taken of itself where a "
-              "tolerance is named and no method), moments, ltc, ltc-two-lobes, and published ones such as karis-14, drobot-elongated (of "
-              "every round lobe), frostbite-6 (the sun). A name that is none lists them")
+              "light; of ggx adaptive (to --tolerance), moments, ltc, ltc-two-lobes, and published ones such as karis-14, drobot-elongated "
+              "(of "
+              "every round lobe), frostbite-6 (the sun). A name that is none lists them. With --tolerance alone, but for lambert: whatever "
+              "keeps it at the least cost, which the answer names")
           ->capture_default_str();
   verb->add_option("--samples", options->samples, "Of monte-carlo: samples of each light at each point (default 65536)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32));

@@ -278,14 +278,25 @@ struct PrincipledKernel {
 
 // Frostbite's standard model (Lagarde and de Rousiers 2014, 3.1, 3.2): f0 = .16 reflectance^2 (1 - m) + base m,
 // f90 = saturate(50 dot(f0, .33)), diffuse colour base (1 - m), height-correlated masking, alpha = roughness^2.
+struct StandardLobes {
+  FrostbiteDiffuse diffuse;
+  GgxLobe specular;
+};
+inline StandardLobes lobes_of(const Standard& m) {
+  const Rgb f0 = Rgb{1, 1, 1} * (0.16 * m.reflectance * m.reflectance * (1 - m.metal)) + m.base_colour * m.metal;
+  return {{m.base_colour * (1 - m.metal), m.roughness},
+          {std::max(m.roughness * m.roughness, min_alpha), f0, occluded_f90(f0), Masking::correlated}};
+}
+
 struct StandardKernel {
-  StandardKernel(const Standard& m, const Vec3d& view)
+  StandardKernel(const Standard& m, const Vec3d& view) : StandardKernel(lobes_of(m), view) {}
+  StandardKernel(const StandardLobes& lobes, const Vec3d& view)
       : v(view),
-        alpha(std::max(m.roughness * m.roughness, min_alpha)),
+        alpha(lobes.specular.alpha),
         lobe(alpha, Masking::correlated, view),
-        diffuse(FrostbiteDiffuse{m.base_colour * (1 - m.metal), m.roughness}, view),
-        f0(Rgb{1, 1, 1} * (0.16 * m.reflectance * m.reflectance * (1 - m.metal)) + m.base_colour * m.metal),
-        f90(occluded_f90(f0)) {}
+        diffuse(lobes.diffuse, view),
+        f0(lobes.specular.f0),
+        f90(lobes.specular.f90) {}
   Rgb operator()(const Vec3d& l) const {
     const HalfAngle h = half_angle(v, l);
     return diffuse.scale * (l.z * diffuse.shape(l.z, h.v_dot_h)) + schlick(f0, f90, schlick_weight(h.v_dot_h)) * lobe(h, l.z);

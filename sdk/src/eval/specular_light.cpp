@@ -146,7 +146,7 @@ class Adaptive {
       begin_all();
       add_up();
     }
-    if (excess(error_) > 1) refine();
+    if (excess(error_, aims()) > 1) refine();
     // 1 - p is alpha where the slopes are 1.
     const double rounding = 1e-13 + 1e-15 / lobe_.alpha;
     Estimate estimate;
@@ -305,12 +305,13 @@ class Adaptive {
   double of_channel(int c, const Risen& r) const { return ggx_.f0[c] * r.plain + ggx_.f90 * r.risen; }
   double largest_value() const { return std::max({of_channel(0, value_), of_channel(1, value_), of_channel(2, value_)}); }
   double allowed(int c) const { return tolerance_ * std::max(of_channel(c, value_), floor_); }
-  // An error in units of what is allowed the cells, in the worst channel.
-  double excess(const Risen& error) const {
+  Rgb aims() const { return Rgb{allowed(0), allowed(1), allowed(2)} * (1 - neglected); }
+  // An error in units of what is aimed at, in the worst channel.
+  double excess(const Risen& error, const Rgb& aims) const {
     double worst = 0;
     for (int c = 0; c < 3; ++c) {
       const double off = of_channel(c, error);
-      if (off > 0) worst = std::max(worst, off / std::max((1 - neglected) * allowed(c), 1e-300));
+      if (off > 0) worst = std::max(worst, off / std::max(aims[c], 1e-300));
     }
     return worst;
   }
@@ -324,12 +325,14 @@ class Adaptive {
   }
 
   void refine() {
+    // Cells are ordered by one measure all along, whatever becomes of the value.
+    const Rgb first_aims = aims();
     std::vector<std::pair<double, std::size_t>> queue;
     const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
-    for (std::size_t i = 0; i < cells_.size(); ++i) queue.emplace_back(excess(cells_[i].error), i);
+    for (std::size_t i = 0; i < cells_.size(); ++i) queue.emplace_back(excess(cells_[i].error, first_aims), i);
     std::make_heap(queue.begin(), queue.end(), less);
     std::vector<LobeCell> children;
-    while (excess(error_) > 1 && cells_.size() < most_cells) {
+    while (excess(error_, aims()) > 1 && cells_.size() < most_cells) {
       std::pop_heap(queue.begin(), queue.end(), less);
       const auto [priority, index] = queue.back();
       if (!(priority > 0)) break;
@@ -346,7 +349,7 @@ class Adaptive {
         } else {
           cells_.push_back(children[i]);
         }
-        queue.emplace_back(excess(children[i].error), at);
+        queue.emplace_back(excess(children[i].error, first_aims), at);
         std::push_heap(queue.begin(), queue.end(), less);
       }
     }

@@ -1,0 +1,72 @@
+// One tolerance for whatever a surface is made of: the way that is taken, and what the reference says of it.
+#include "etendue/light_within.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "eval_protocol.h"
+
+namespace {
+
+using namespace etendue;
+using namespace etendue::eval;
+using namespace etendue::eval::protocol;
+
+ShadingPoint surface(const Brdf& brdf, const Vec3d& view = normalised(Vec3d{0.6, 0.2, 0.7})) {
+  return {{}, {0, 0, 1}, {0, 0, 1}, view, brdf};
+}
+const Emitter& sphere() {
+  static const Emitter light = white(SphereEmitter{{-0.5, 0.3, 1}, 0.4}, 100);
+  return light;
+}
+
+// Every kind of surface under lights of every kind, in every channel.
+TEST(LightWithin, KeepsTheToleranceOfBothLobes) {
+  Random random(71);
+  for (int i = 0; i < 120; ++i) {
+    const Kind kind = std::array{Kind::rect, Kind::sphere, Kind::disk, Kind::capsule}[static_cast<std::size_t>(i % 4)];
+    const Placement p = place(kind, random, i % 3 == 0);
+    const double roughness = random.uniform(0.05, 1);
+    const Brdf brdf = std::array<Brdf, 4>{Standard{{0.8, 0.3, 0.05}, random.uniform(0, 1), roughness, 0.6}, GgxLobe{roughness * roughness},
+                                          OrenNayar{{0.5, 0.5, 0.5}, 0.4},
+                                          MetalRough{{0.9, 0.2, 0.1}, 0.5, roughness}}[static_cast<std::size_t>(i / 4 % 4)];
+    Vec3d view = random.direction();
+    view = view - p.normal * std::min(0.0, 2 * dot(view, p.normal));
+    const ShadingPoint point{p.position, p.normal, p.normal, view, brdf};
+    for (const double tolerance : {1e-2, 1e-4}) {
+      const LightWithin found = light_within(p.emitter, point, tolerance);
+      const double floor = 1e-3 * illuminance(p.emitter, p.position, p.normal).x;
+      const Estimate truth = reference(p.emitter, point, {tolerance / 100, tolerance / 100 * floor});
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_LE(std::abs(found.light.value[c] - truth.value[c]), tolerance * std::max(truth.value[c], floor) + truth.error[c])
+            << i << found.way;
+        EXPECT_LE(found.light.error[c], 1.1 * tolerance * std::max(truth.value[c], floor)) << i << found.way;
+      }
+    }
+  }
+}
+
+TEST(LightWithin, TakesTheCheapestWay) {
+  EXPECT_EQ(light_within(sphere(), surface(Lambert{{1, 1, 1}}), 1e-3).way, "exact");
+  EXPECT_EQ(light_within(sphere(), surface(GgxLobe{0.1}), 1e-3).way, "adaptive");
+  EXPECT_EQ(light_within(sphere(), surface(Standard{}), 1e-3).way, "two lobes");
+  EXPECT_EQ(light_within(sphere(), surface(Conductor{}), 1e-3).way, "reference");
+  EXPECT_EQ(light_within(white(SphereEmitter{{0, 0, -1}, 0.4}), surface(Standard{}), 1e-3).way, "unseen");
+  Emitter point = sphere();
+  point.shape = PunctualEmitter{{0, 0, 2}, {}, {10, 10, 10}, PointShape{}};
+  EXPECT_EQ(light_within(point, surface(GgxLobe{0.1}), 1e-3).way, "exact");
+  EXPECT_EQ(light_within(white(LineEmitter{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}}), surface(GgxLobe{0.1}), 1e-3).way, "reference");
+}
+
+// A lobe of no reflectance leaves the diffuse one.
+TEST(LightWithin, OneLobeMayBeBlack) {
+  const Standard matte{{0.5, 0.4, 0.3}, 0, 0.7, 0};
+  const LightWithin found = light_within(sphere(), surface(matte), 1e-5);
+  const Estimate diffuse = reference(sphere(), surface(FrostbiteDiffuse{matte.base_colour, matte.roughness}), {1e-8, 0});
+  EXPECT_EQ(found.way, "two lobes");
+  EXPECT_NEAR(found.light.value.x, diffuse.value.x, found.light.error.x + diffuse.error.x);
+}
+
+}  // namespace
