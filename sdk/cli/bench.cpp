@@ -6,6 +6,7 @@
 
 #include "diffuse_bench.h"
 #include "etendue/io.h"
+#include "specular_bench.h"
 #include "verbs.h"
 
 namespace etendue::cli {
@@ -13,13 +14,16 @@ namespace {
 
 struct Options {
   DiffuseBench bench;
-  std::string svg;
+  SpecularBench specular;
+  std::string brdf = "lambert", svg;
+  std::optional<std::uint64_t> samples;
+  bool is_specular() const { return brdf == "ggx"; }
 };
 
 // What a rectangle costs at least, by the count of its operations: whole, and cut by the horizon.
 constexpr double whole_rect_flop = 273, cut_rect_flop = 371;
 
-void add_figures(Json& row, const std::string& side, const DiffuseFigures& f, const std::vector<InstructionSet>& sets) {
+void add_figures(Json& row, const std::string& side, const MethodFigures& f, const std::vector<InstructionSet>& sets) {
   row["ns_" + side] = f.ns;
   for (std::size_t k = 0; k < sets.size(); ++k) row["ns_by_set"][sets[k].name][side] = f.ns_on[k];
   row["error_" + side + "_agg"] = f.agg;
@@ -32,11 +36,14 @@ void add_figures(Json& row, const std::string& side, const DiffuseFigures& f, co
     row["matched_" + side + "_ratio"] = f.ratio;
   }
 }
-Json to_json(const DiffuseTable& table) {
+Json to_json(const MethodTable& table) {
   Json rows = Json::array();
-  for (const DiffuseRow& r : table.rows) {
-    Json row = {
-        {"shape", table.shape}, {"method", r.method}, {"kind", r.is_ours ? "ours" : "published"}, {"ns", 0.5 * (r.above.ns + r.across.ns)}};
+  for (const MethodRow& r : table.rows) {
+    Json row = {{"shape", table.shape},
+                {"method", r.method},
+                {"kind", r.is_ours ? "ours" : "published"},
+                {"in_vectors", !r.one_by_one},
+                {"ns", 0.5 * (r.above.ns + r.across.ns)}};
     add_figures(row, "above", r.above, table.instruction_sets);
     add_figures(row, "across", r.across, table.instruction_sets);
     row["note"] = r.note;
@@ -45,22 +52,23 @@ Json to_json(const DiffuseTable& table) {
   return rows;
 }
 
-std::string match_of(const DiffuseRow& row, const DiffuseFigures& f) {
+std::string match_of(const MethodRow& row, const MethodFigures& f) {
+  if (row.one_by_one) return row.is_ours ? "ours, one by one in double" : "one by one in double";
   if (row.is_ours) return f.exact ? "ours, exact" : "ours";
   const std::string self = f.exact ? "exact itself; " : "";
   if (f.ours.empty()) return self + "NOT MATCHED: none of ours errs as little";
   return fmt::format("{}{}{} at {:.2f} x", self, f.ratio <= matched_ratio ? "" : "NOT MATCHED: ", f.ours, f.ratio);
 }
-std::string text_of(const DiffuseTable& table) {
+std::string text_of(const MethodTable& table) {
   const std::vector<InstructionSet>& sets = table.instruction_sets;
   std::string out = fmt::format(
-      "{}, {} points above the horizon and as many across it, seed {}; peak of multiply-adds, measured in the same turns: ", table.shape,
-      table.samples, table.seed);
+      "{} of {}, {} points above the horizon and as many across it, seed {}; peak of multiply-adds, measured in the same turns: ",
+      table.light, table.shape, table.samples, table.seed);
   for (const InstructionSet& set : sets)
     out += fmt::format("{}{} {:.0f} GFLOP/s", &set == &sets.front() ? "" : ", ", set.name, set.peak_gflops);
   out += "\n";
-  for (const auto& [side, title] : {std::pair{&DiffuseRow::above, "above the horizon"},
-                                    {&DiffuseRow::across, table.shape == "point" ? "risen or set" : "across the horizon"}}) {
+  for (const auto& [side, title] : {std::pair{&MethodRow::above, "above the horizon"},
+                                    {&MethodRow::across, table.shape == "point" ? "risen or set" : "across the horizon"}}) {
     out += fmt::format("\n{:<28}", title);
     for (const InstructionSet& set : sets) out += fmt::format(" {:>10}", set.name + " ns");
     out += fmt::format(" {:>9} {:>9} {:>9} {:>9}  {}\n", "agg", "mean rel", "p99 rel", "max abs",
@@ -70,15 +78,15 @@ std::string text_of(const DiffuseTable& table) {
     std::stable_sort(order.begin(), order.end(),
                      [&, by = side](std::size_t a, std::size_t b) { return (table.rows[a].*by).ns < (table.rows[b].*by).ns; });
     for (const std::size_t i : order) {
-      const DiffuseRow& row = table.rows[i];
-      const DiffuseFigures& f = row.*side;
+      const MethodRow& row = table.rows[i];
+      const MethodFigures& f = row.*side;
       out += fmt::format("{:<28}", row.method);
       for (const double ns : f.ns_on) out += fmt::format(" {:>10.2f}", ns);
       out += fmt::format(" {:>9.2g} {:>9.2g} {:>9.2g} {:>9.2g}  {}\n", f.agg, f.mean_rel, f.p99, f.max_abs, match_of(row, f));
     }
   }
-  if (table.shape == "rect") {
-    const auto exact = std::find_if(table.rows.begin(), table.rows.end(), [](const DiffuseRow& r) { return r.method == "exact"; });
+  const auto exact = std::find_if(table.rows.begin(), table.rows.end(), [](const MethodRow& r) { return r.method == "exact"; });
+  if (table.shape == "rect" && exact != table.rows.end()) {
     out += "\n";
     for (std::size_t k = 0; k < sets.size(); ++k)
       out += fmt::format(
@@ -91,10 +99,11 @@ std::string text_of(const DiffuseTable& table) {
 
 int run_bench(const Common& common, const Options& options) {
   Session session("bench", common);
-  Result<DiffuseTable> table = Error{};
+  Result<MethodTable> table = Error{};
   {
     Bar bar(session);
-    table = run_diffuse_bench(options.bench, [&](double done) { return bar.report("measuring", done); });
+    const auto report = [&](double done) { return bar.report("measuring", done); };
+    table = options.is_specular() ? run_specular_bench(options.specular, report) : run_diffuse_bench(options.bench, report);
   }
   if (!table) return session.fail(table.error());
   session.result = to_json(*table);
@@ -106,7 +115,7 @@ int run_bench(const Common& common, const Options& options) {
   for (const InstructionSet& set : table->instruction_sets) session.stats["peak_gflops_by_set"][set.name] = set.peak_gflops;
   session.print(text_of(*table));
   if (!options.svg.empty()) {
-    const std::string svg = diffuse_scatter(*table);
+    const std::string svg = method_scatter(*table);
     if (const Status written = write_file(options.svg, std::as_bytes(std::span(svg))); !written) return session.fail(written.error());
   }
   return session.finish(exit_done);
@@ -115,14 +124,24 @@ int run_bench(const Common& common, const Options& options) {
 }  // namespace
 
 void add_bench(CLI::App& app, const Common& common, Run& run) {
-  CLI::App* const verb = app.add_subcommand("bench", "Run time against error of every method for the diffuse light of a shape");
+  CLI::App* const verb = app.add_subcommand("bench", "Run time against error of every method for the light of a shape");
   auto options = std::make_shared<Options>();
   verb->add_option("SHAPE", options->bench.shape, "rect, sphere, disk, tube (with round caps), line or point")
       ->required()
       ->check(CLI::IsMember(std::vector<std::string>(bench_shapes.begin(), bench_shapes.end())));
-  verb->add_option("--svg", options->svg, "Draw time against error to this file; what is there is replaced");
-  verb->add_option("--samples", options->bench.samples, "Points on each side of the horizon, in batches of 4096 a light")
+  verb->add_option("--brdf", options->brdf, "lambert: the light that falls on a surface; ggx: what its specular lobe sends to the eye")
       ->capture_default_str()
+      ->check(CLI::IsMember({"lambert", "ggx"}));
+  verb->add_option("--f0", options->specular.f0, "Of the lobe: reflectance at normal incidence")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--alpha", options->specular.alphas, "Of the lobe: roughness squared, or several that points have in turn")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->check(CLI::Range(1e-4, 1.0));
+  verb->add_option("--svg", options->svg, "Draw time against error to this file; what is there is replaced");
+  verb->add_option("--samples", options->samples,
+                   "Points on each side of the horizon, in batches of 4096 a light (131072; of lobes, whose reference takes longer, 16384)")
       ->check(CLI::Range(4096, 1 << 22));
   verb->add_option("--seed", options->bench.seed, "Of lights and points")->capture_default_str();
   verb->add_option("--rounds", options->bench.rounds, "Turns that the methods take; the median counts")
@@ -130,16 +149,27 @@ void add_bench(CLI::App& app, const Common& common, Run& run) {
       ->check(CLI::Range(1, 10001));
   verb->footer(
       "\nErrors are those of floats against the exact light in double, for a luminance of 1: agg is the sum of all errors over the\n"
-      "sum of the light. Methods take turns on one thread, so what slows the machine down slows all of them. There is a column of times "
-      "(ns\n"
-      "a point) for the machine's best instruction set, by which methods are compared, and one each for AVX2 and SSE4. Of a line and a\n"
-      "point light there is the closed form alone.\n"
+      "sum of the light; relative ones are of what gives a thousandth or more. Methods take turns on one thread, so what slows the\n"
+      "machine down slows all of them. There is a column of times (ns a point) for the machine's best instruction set, by which\n"
+      "methods are compared, and one each for AVX2 and SSE4. Of a line and a point light there is the closed form alone. Of lobes,\n"
+      "methods without vectors are timed once, in double.\n"
       "\nExamples:\n"
       "  etendue bench rect\n"
       "  etendue bench tube --svg tube.svg\n"
-      "  etendue bench line\n"
+      "  etendue bench rect --brdf ggx --f0 .04\n"
+      "  etendue bench rect --brdf ggx --alpha .01,.02,.05 --svg narrow.svg\n"
       "  etendue bench disk --samples 65536 --seed 7 --json");
-  verb->callback([&common, &run, options] { run = [&common, options] { return run_bench(common, *options); }; });
+  verb->callback([&common, &run, options, verb] {
+    const auto& shapes = specular_bench_shapes;
+    const std::string& shape = options->bench.shape;
+    if (options->is_specular() && std::find(shapes.begin(), shapes.end(), shape) == shapes.end())
+      throw CLI::ValidationError("SHAPE", "lobes are measured with rect, sphere, disk and tube, not with " + shape);
+    if (!options->is_specular() && verb->count("--f0") + verb->count("--alpha") > 0)
+      throw CLI::ValidationError("--f0, --alpha", "are of a lobe: add --brdf ggx");
+    options->specular.shape = shape, options->specular.seed = options->bench.seed, options->specular.rounds = options->bench.rounds;
+    if (options->samples) options->bench.samples = options->specular.samples = *options->samples;
+    run = [&common, options] { return run_bench(common, *options); };
+  });
 }
 
 }  // namespace etendue::cli

@@ -4,7 +4,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "diffuse_bench.h"
+#include "bench_table.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etendue::cli::HWY_NAMESPACE {

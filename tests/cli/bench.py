@@ -40,6 +40,18 @@ def main():
             assert one is None or rows[one]["error_across_agg"] > 0.05, rows[one]
             texts = {t.text for t in xml.etree.ElementTree.parse(svg).getroot().iter("{http://www.w3.org/2000/svg}text")}
             assert {"exact", one or "exact"} <= texts, texts
+        # Lobes: in vectors ours, one by one the others; the forms with vectors err as their doubles do.
+        svg = pathlib.Path(folder) / "ggx.svg"
+        run = subprocess.run([etendue, "bench", "rect", "--brdf", "ggx", "--f0", ".04", "--alpha", ".1,.5", "--samples", "4096", "--rounds", "1", "--json", "-q", "--svg", str(svg)], capture_output=True, text=True, check=True)
+        rows = {r["method"]: r for r in json.loads(run.stdout)["result"]}
+        assert {m for m, r in rows.items() if r["in_vectors"]} == {"ltc", "ltc-two-lobes", "moments"} and "drobot-1-20" in rows and "adaptive 1e-3" in rows, sorted(rows)
+        for side in ("above", "across"):
+            assert rows["moments"]["error_%s_agg" % side] < 0.06 < rows["ltc"]["error_%s_agg" % side] < 0.4, side
+            assert rows["adaptive 1e-3"]["error_%s_agg" % side] < 1e-3, side
+        texts = {t.text for t in xml.etree.ElementTree.parse(svg).getroot().iter("{http://www.w3.org/2000/svg}text")}
+        assert {"moments", "ltc", "drobot-1-20"} <= texts, texts
+        for wrong in (["line", "--brdf", "ggx"], ["rect", "--f0", ".04"]):
+            assert subprocess.run([etendue, "bench", *wrong], capture_output=True).returncode == 2, wrong
 
 
 if __name__ == "__main__":

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <random>
+#include <string_view>
 
 namespace etendue::eval::protocol {
 
@@ -109,6 +111,41 @@ inline EmitterShape random_shape(Kind kind, const Vec3d& position, const Vec3d& 
     if (kind == Kind::line) return LineEmitter{centre - half, centre + half, {1, 1, 1}};
     return TubeEmitter{centre - half, centre + half, radius, caps};
   }
+}
+
+// A point around a light as random_shape puts a light around a point. Nothing where that would not take it.
+inline std::optional<Vec3d> point_around(const EmitterShape& shape, Random& random) {
+  const Vec3d towards = random.direction();
+  if (const auto* s = std::get_if<SphereEmitter>(&shape)) return s->centre - towards * (s->radius * random.uniform(1.05, 6));
+  if (const auto* d = std::get_if<DiskEmitter>(&shape)) {
+    const double distance = d->radius * random.uniform(0.5, 6), cosine = -dot(d->normal, towards);
+    if (cosine < 0.02 || cosine * distance < 0.04 * d->radius) return std::nullopt;
+    return d->centre - towards * distance;
+  }
+  const auto around_axis = [&](const Vec3d& a, const Vec3d& b, double radius) -> std::optional<Vec3d> {
+    const Vec3d span = b - a, p = (a + b) * 0.5 - towards * (random.uniform(0.5, 3) * (length(span) + 2 * radius));
+    const double share = std::clamp(dot(p - a, span) / dot(span, span), 0.0, 1.0);
+    if (length(p - a - span * share) < 1.05 * radius) return std::nullopt;
+    return p;
+  };
+  if (const auto* t = std::get_if<TubeEmitter>(&shape)) return around_axis(t->a, t->b, t->radius);
+  if (const auto* l = std::get_if<LineEmitter>(&shape)) return around_axis(l->a, l->b, 0.01 * length(l->b - l->a));
+  if (const auto* p = std::get_if<PunctualEmitter>(&shape)) return p->position - towards * point_distance(random);
+  const auto& polygon = std::get<PolygonEmitter>(shape);
+  const auto& v = polygon.vertices;
+  const double size = std::max(length(v[1] - v[0]), length(v[3] - v[0])), distance = size * random.uniform(0.5, 3);
+  const double cosine = -dot(polygon.normal, towards);
+  if (cosine < 0.02 || cosine * distance < 0.02 * size) return std::nullopt;
+  return (v[0] + v[2]) * 0.5 - towards * distance;
+}
+
+// As the command names shapes: rect, sphere, disk, tube (a capsule), line, point.
+inline Kind kind_named(std::string_view shape) {
+  if (shape == "sphere") return Kind::sphere;
+  if (shape == "disk") return Kind::disk;
+  if (shape == "line") return Kind::line;
+  if (shape == "point") return Kind::point;
+  return shape == "tube" ? Kind::capsule : Kind::rect;
 }
 
 }  // namespace etendue::eval::protocol

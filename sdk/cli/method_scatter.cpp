@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diffuse_bench.h"
+#include "bench_table.h"
 #include "svg.h"
 
 namespace etendue::cli {
@@ -32,9 +32,9 @@ struct Panel {
   }
 };
 
-std::vector<Mark> marks_of(const DiffuseTable& table, DiffuseFigures DiffuseRow::*side) {
+std::vector<Mark> marks_of(const MethodTable& table, MethodFigures MethodRow::*side) {
   std::vector<Mark> marks;
-  for (const DiffuseRow& row : table.rows)
+  for (const MethodRow& row : table.rows)
     marks.push_back({(row.*side).ns, std::max((row.*side).agg, 1e-9), row.method, row.is_ours, false});
   std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.ns != b.ns ? a.ns < b.ns : a.error < b.error; });
   double least = 1e300;
@@ -44,6 +44,8 @@ std::vector<Mark> marks_of(const DiffuseTable& table, DiffuseFigures DiffuseRow:
   }
   return marks;
 }
+
+constexpr double most_decades = 3;  // with lines at 2 and 5 of each
 
 struct Box {
   double left, top, right, bottom;
@@ -76,6 +78,7 @@ void draw(SvgSheet& sheet, const Panel& panel, std::string_view title, const std
   sheet.text({panel.left, panel.top - 10}, title, "ink", "start", 13.5);
   for (int decade = static_cast<int>(std::floor(panel.ns.from)); decade < panel.ns.to; ++decade) {
     for (const double part : {1.0, 2.0, 5.0}) {
+      if (part > 1 && panel.ns.to - panel.ns.from > most_decades) continue;  // their numbers would overlap
       const double time = part * std::pow(10, decade), place = std::log10(time);
       if (place < panel.ns.from || place > panel.ns.to) continue;
       const double x = panel.at(time, 1).x;
@@ -111,8 +114,8 @@ void draw(SvgSheet& sheet, const Panel& panel, std::string_view title, const std
 
 }  // namespace
 
-std::string diffuse_scatter(const DiffuseTable& table) {
-  const std::vector<Mark> above = marks_of(table, &DiffuseRow::above), across = marks_of(table, &DiffuseRow::across);
+std::string method_scatter(const MethodTable& table) {
+  const std::vector<Mark> above = marks_of(table, &MethodRow::above), across = marks_of(table, &MethodRow::across);
   double fastest = 1e300, slowest = 0, least = 1e300, most = 0;
   for (const auto* marks : {&above, &across}) {
     for (const Mark& m : *marks) {
@@ -122,9 +125,10 @@ std::string diffuse_scatter(const DiffuseTable& table) {
   }
   const Range ns{std::log10(0.8 * fastest), std::log10(1.3 * slowest)}, error = decades(least, most);
   SvgSheet sheet(1180, 620);
-  sheet.heading(fmt::format("Diffuse light of a {}: time against error", table.shape == "rect"    ? "rectangle"
-                                                                         : table.shape == "point" ? "point light"
-                                                                                                  : table.shape),
+  sheet.heading(fmt::format("{} of a {}: time against error", table.light,
+                            table.shape == "rect"    ? "rectangle"
+                            : table.shape == "point" ? "point light"
+                                                     : table.shape),
                 fmt::format("{} points each, one thread, {}; error: the sum of all errors over the sum of the light", table.samples,
                             table.instruction_sets.front().name));
   constexpr double top = 110, width = 470, height = 430;

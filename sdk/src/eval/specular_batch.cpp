@@ -1,0 +1,67 @@
+// Specular light at many points: the rules by name, and lights as they take them.
+#include "specular_batch.h"
+
+#include "batch_error.h"
+#include "etendue/ltc.h"
+#include "etendue/specular_methods.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace etendue::eval {
+namespace {
+
+constexpr std::pair<std::string_view, SpecularRule> rules[] = {
+    {"ltc", SpecularRule::ltc}, {"ltc-two-lobes", SpecularRule::ltc_two_lobes}, {"moments", SpecularRule::moments}};
+
+std::string_view name_of(SpecularRule rule) {
+  return std::find_if(std::begin(rules), std::end(rules), [&](const auto& r) { return r.second == rule; })->first;
+}
+
+}  // namespace
+
+std::optional<SpecularRule> SpecularBatch::rule_named(std::string_view method) {
+  const auto* found = std::find_if(std::begin(rules), std::end(rules), [&](const auto& r) { return r.first == method; });
+  return found == std::end(rules) ? std::nullopt : std::optional(found->second);
+}
+
+Result<SpecularBatch> SpecularBatch::of(SpecularRule rule, const Emitter& emitter) {
+  Emitter white = emitter;
+  white.radiance = {1, 1, 1};
+  std::shared_ptr<const Light> light;
+  if (!white.pattern && !is_window(white.window)) light = specular_rect(white);
+  if (!light) return Error{"METHOD_SHAPE", std::string(name_of(rule)) + " has no vectors for this light", {}, {}, {}};
+  return SpecularBatch(rule, std::move(light), emitter.radiance);
+}
+
+BatchOutcome SpecularBatch::shares(const SpecularPoints& points, std::span<float> of_f0, std::span<float> of_f90, float where_none) const {
+  const PointBatch& s = points.surface;
+  for (const std::span<const float>& in : {s.px, s.py, s.pz, s.nx, s.ny, s.nz, points.vx, points.vy, points.vz, points.alpha})
+    if (in.size() != of_f0.size()) return batch_sizes_differ(in.size(), of_f0.size());
+  if (of_f90.size() != of_f0.size()) return batch_sizes_differ(of_f0.size(), of_f90.size());
+  return light_->over(rule_, points, of_f0, of_f90, where_none);
+}
+
+SchlickShares in_double(SpecularRule rule, const Emitter& white, const SpecularPoints& points, std::size_t index) {
+  const PointBatch& s = points.surface;
+  const auto at = [&](std::span<const float> x, std::span<const float> y, std::span<const float> z) {
+    return Vec3d{x[index], y[index], z[index]};
+  };
+  const Vec3d normal = normalised(at(s.nx, s.ny, s.nz));
+  const SpecularMethod& method = *find_specular_method(name_of(rule));
+  const auto of = [&](double f0, double f90) {
+    const ShadingPoint point{at(s.px, s.py, s.pz) + s.origin, normal, normal, normalised(at(points.vx, points.vy, points.vz)),
+                             GgxLobe{points.alpha[index], {f0, f0, f0}, f90}};
+    return static_cast<float>(method.luminance(white, point).value_or(Rgb{}).x);
+  };
+  return {of(1, 0), of(0, 1)};
+}
+
+LtcNodes ltc_nodes() {
+  static_assert(sizeof(LtcTable::Node) == 12 * sizeof(float));
+  const LtcTable& table = ltc_table();
+  return {table.nodes().data()->data(), table.size()};
+}
+
+}  // namespace etendue::eval

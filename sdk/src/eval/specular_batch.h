@@ -1,0 +1,37 @@
+// Lights as etendue/specular_batch.h takes them, and what their kernels share before an instruction set is chosen.
+#pragma once
+
+#include "etendue/specular_batch.h"
+
+#include <cstddef>
+#include <span>
+
+namespace etendue::eval {
+
+// Of a light of 1 cd/m2: factors on f0 and f90.
+struct SchlickShares {
+  float of_f0 = 0, of_f90 = 0;
+};
+
+class SpecularBatch::Light {
+ public:
+  virtual ~Light() = default;
+  // SpecularBatch::shares, sizes checked.
+  virtual std::size_t over(SpecularRule rule, const SpecularPoints& points, std::span<float> of_f0, std::span<float> of_f90,
+                           float where_none) const = 0;
+};
+
+// Of an emitter of luminance 1; null if it is no rectangle.
+std::shared_ptr<const SpecularBatch::Light> specular_rect(const Emitter& white);
+
+// The method in double at one point of a batch.
+SchlickShares in_double(SpecularRule rule, const Emitter& white, const SpecularPoints& points, std::size_t index);
+
+// The nodes of ltc_table(), 12 numbers each.
+struct LtcNodes {
+  const float* first;
+  std::size_t size;  // along each side
+};
+LtcNodes ltc_nodes();
+
+}  // namespace etendue::eval

@@ -1,0 +1,102 @@
+// Specular light of a rectangle at many points: transformed cosines from the table, and moments.
+#include "light_batch.h"
+#include "specular_batch.h"
+#include "views.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "eval/specular_rect_batch.cpp"  // this file: compiled again for each instruction set
+#include <hwy/foreach_target.h>
+
+#include <array>
+#include <cmath>
+
+#include "eval/ltc-inl.h"
+#include "eval/specular_batch-inl.h"
+#include "eval/specular_moments-inl.h"
+
+#ifndef ETENDUE_SPECULAR_RECT_BATCH_SHARED
+#define ETENDUE_SPECULAR_RECT_BATCH_SHARED
+namespace etendue::eval {
+struct SpecularRect {
+  std::array<Place, 4> corners;  // counter-clockwise about the directions between them, as seen from the front
+  Direction normal;
+  const Emitter& white;
+};
+}  // namespace etendue::eval
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace etendue::eval::HWY_NAMESPACE {
+namespace {
+
+// of(sides): the shares of the light's outline above the horizon as unit vectors in the view's frame, counter-clockwise from its front.
+template <class Of>
+class RectLobe {
+ public:
+  RectLobe(const SpecularRect& light, Of of) : light_(light), of_(of) {}
+  HWY_INLINE Shares operator()(const Vector3& position, const Vector3& normal, const Vector3& view, Lanes alpha, Lit&) const {
+    const Floats d;
+    const Lanes zero = number(0);
+    const ViewFrame frame = view_frame(normal, view);
+    std::array<Vector3, 4> corners{};
+    each<4>([&](auto i) ETENDUE_INLINE_LAMBDA { corners[i] = towards(d, light_.corners[i], position); });
+    const Lanes height = dot(corners[0], numbers(d, light_.normal));  // below 0 in front
+    each<4>([&](auto i) ETENDUE_INLINE_LAMBDA { corners[i] = unit(frame(corners[i])); });
+    const Outline<4> whole = outline_of(corners);
+    const Shares shares = hn::AllTrue(d, all_above(whole)) ? of_(frame, alpha, whole) : of_(frame, alpha, clipped(whole));
+    // Their sum is turned where the back is seen.
+    const Lit front = hn::Lt(height, zero);
+    const Lit lit = hn::And(hn::Gt(frame.cosine, zero), light_.white.two_sided ? hn::Not(hn::Eq(height, zero)) : front);
+    return {hn::IfThenElseZero(lit, shares.of_f0), hn::IfThenElseZero(lit, shares.of_f90)};
+  }
+
+ private:
+  const SpecularRect& light_;
+  Of of_;
+};
+
+std::size_t OverSpecularRect(SpecularRule rule, const SpecularRect& light, const LtcNodes& nodes, const SpecularPoints& points,
+                             std::span<float> of_f0, std::span<float> of_f90, float where_none) {
+  const auto exact = [&](std::size_t index) { return in_double(rule, light.white, points, index); };
+  const auto with = [&](auto of) { return over_views(points, of_f0, of_f90, where_none, RectLobe(light, of), exact); };
+  if (rule == SpecularRule::ltc) return with(ThroughTable<false>{nodes});
+  if (rule == SpecularRule::ltc_two_lobes) return with(ThroughTable<true>{nodes});
+  return with(ByMoments{});
+}
+
+}  // namespace
+}  // namespace etendue::eval::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace etendue::eval {
+namespace {
+
+HWY_EXPORT(OverSpecularRect);
+
+class RectLight final : public SpecularBatch::Light {
+ public:
+  RectLight(const Emitter& white, const RectView& view) : white_(white), view_(view) {}
+  std::size_t over(SpecularRule rule, const SpecularPoints& points, std::span<float> of_f0, std::span<float> of_f90,
+                   float where_none) const override {
+    const auto corner = [&](double x, double y) { return Place(view_.at(x * view_.half_x, y * view_.half_y) - points.surface.origin); };
+    const SpecularRect rect{{corner(-1, -1), corner(-1, 1), corner(1, 1), corner(1, -1)}, Direction(view_.normal), white_};
+    return HWY_DYNAMIC_DISPATCH(OverSpecularRect)(rule, rect, ltc_nodes(), points, of_f0, of_f90, where_none);
+  }
+
+ private:
+  Emitter white_;
+  RectView view_;
+};
+
+}  // namespace
+
+std::shared_ptr<const SpecularBatch::Light> specular_rect(const Emitter& white) {
+  const auto* polygon = std::get_if<PolygonEmitter>(&white.shape);
+  if (polygon == nullptr) return nullptr;
+  const std::optional<RectView> view = rect_view(*polygon, false, {});
+  return view ? std::make_shared<RectLight>(white, *view) : nullptr;
+}
+
+}  // namespace etendue::eval
+#endif

@@ -1,0 +1,176 @@
+// Specular light in vectors of floats against the methods in double.
+#include "etendue/specular_batch.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "etendue/specular_methods.h"
+#include "eval_protocol.h"
+#include "float_points.h"
+#include "instruction_sets.h"
+
+namespace {
+
+using namespace etendue;
+using namespace etendue::eval;
+using namespace etendue::eval::protocol;
+
+constexpr std::array methods{"ltc", "ltc-two-lobes", "moments"};
+
+struct Views {
+  FloatPoints surface;
+  std::vector<float> vx, vy, vz, alpha;
+
+  void add(const Vec3d& position, const Vec3d& normal, const Vec3d& view, double a) {
+    surface.add(position, normal);
+    const Vec3f v = vec_cast<float>(view);
+    vx.push_back(v.x), vy.push_back(v.y), vz.push_back(v.z), alpha.push_back(static_cast<float>(a));
+  }
+  SpecularPoints points() const { return {surface.batch(), vx, vy, vz, alpha}; }
+  // What the floats say.
+  ShadingPoint point(std::size_t i, double f0, double f90) const {
+    const Vec3d n = surface.normal(i);
+    return {surface.position(i), n, n, normalised(Vec3d{vx[i], vy[i], vz[i]}), GgxLobe{alpha[i], {f0, f0, f0}, f90}};
+  }
+};
+struct Answers {
+  std::vector<float> of_f0, of_f90;
+  explicit Answers(std::size_t count) : of_f0(count, -1), of_f90(count, -1) {}
+};
+Answers answers(const char* method, const Emitter& light, const Views& views) {
+  Answers out(views.alpha.size());
+  const Result<SpecularBatch> batch = SpecularBatch::of(*SpecularBatch::rule_named(method), light);
+  EXPECT_TRUE(batch);
+  EXPECT_TRUE(batch->shares(views.points(), out.of_f0, out.of_f90, -1));
+  return out;
+}
+// Half of them with the mirror direction within the light.
+Vec3d view_of(const Placement& p, Random& random) {
+  const double choice = random.uniform(0, 1);
+  if (choice < 0.5) {
+    const Vec3d l = sample_light(p.emitter, p.position, random.square()).direction;
+    if (const double z = dot(l, p.normal); z > 0.01) return p.normal * (2 * z) - l;
+  }
+  for (;;) {
+    const Vec3d view = random.direction();
+    if (dot(view, p.normal) > 0.01) return view;
+  }
+}
+// Of a rectangle and points around it, some behind it and some under whose horizon it is.
+Views views_around(const Emitter& light, Random& random, int count) {
+  Views views;
+  for (int i = 0; i < count; ++i) {
+    Placement p{light, random.direction() * random.uniform(0.5, 4), random.direction(), {}};
+    views.add(p.position, p.normal, view_of(p, random), std::pow(10.0, random.uniform(-3, 0)));
+  }
+  return views;
+}
+
+// The roundings of directions in floats, some 1e-6 after frames and half vectors, move an outline by as much over alpha n.v of the lobe's
+// width, (v + l) being as high as n.v at least. On the whole it is nothing.
+TEST(SpecularBatch, IsTheMethodInDouble) {
+  on_each_instruction_set([] {
+    for (const char* name : methods) {
+      SCOPED_TRACE(name);
+      const SpecularMethod& method = *find_specular_method(name);
+      Random random(3);
+      double errors = 0, sum = 0;
+      for (const bool two_sided : {false, true}) {
+        Emitter light = white(rectangle({0.3, -0.2, 0.1}, {0.6, 0, 0.8}, {0, 1, 0}, 1.3, 0.7));
+        light.two_sided = two_sided;
+        const Views views = views_around(light, random, 1500);
+        const Answers found = answers(name, light, views);
+        for (std::size_t i = 0; i < views.alpha.size(); ++i) {
+          for (const bool metal : {true, false}) {
+            const double expected = method.luminance(light, views.point(i, metal ? 1 : 0.04, 1))->x;
+            const double value = (metal ? 1 : 0.04) * static_cast<double>(found.of_f0[i]) + static_cast<double>(found.of_f90[i]);
+            const ShadingPoint point = views.point(i, 1, 1);
+            const double cosine = std::abs(dot(point.view, point.normal)), narrow = static_cast<double>(views.alpha[i]) * cosine;
+            EXPECT_NEAR(value, expected, 2e-3 * expected + 1e-4 + 2e-6 / narrow)
+                << "alpha " << views.alpha[i] << " cosine " << cosine << " point " << i;
+            errors += std::abs(value - expected), sum += expected;
+          }
+        }
+      }
+      EXPECT_LT(errors, 5e-5 * sum);
+    }
+  });
+}
+TEST(SpecularBatch, HorizonsAndBacksAreDark) {
+  const Emitter light = white(rectangle({0, 0, 2}, {1, 0, 0}, {0, -1, 0}, 1, 1));  // down
+  Views views;
+  views.add({0, 0, 0}, {0, 0, 1}, normalised(Vec3d{0.2, 0, 1}), 0.3);    // under it
+  views.add({0, 0, 4}, {0, 0, -1}, normalised(Vec3d{0.2, 0, -1}), 0.3);  // behind
+  views.add({0, 0, 0}, {0, 0, -1}, normalised(Vec3d{0.2, 0, -1}), 0.3);  // set
+  views.add({0, 0, 0}, {0, 0, 1}, normalised(Vec3d{0.2, 0, -1}), 0.3);   // seen from below
+  views.add({0, 0, 2}, {0, 0, 1}, normalised(Vec3d{0.2, 0, 1}), 0.3);    // within its plane
+  for (const char* name : methods) {
+    const Answers found = answers(name, light, views);
+    EXPECT_GT(found.of_f0[0], 0.01f) << name;
+    for (std::size_t i = 1; i < 5; ++i) EXPECT_EQ(found.of_f0[i] + found.of_f90[i], 0) << name << ' ' << i;
+  }
+}
+// Every angle, alpha from below the least to above the most, views along the normal and along the surface, in contact and far away.
+TEST(SpecularBatch, IsFiniteLight) {
+  on_each_instruction_set([] {
+    Random random(8);
+    const Emitter light = white(rectangle({}, {1, 0, 0}, {0, 1, 0}, 1, 0.02));
+    Views views;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3d n = random.direction(), across = normalised(cross(n, random.direction()));
+      const double lift = std::array{0.0, 1e-9, 1e-4, 0.1, 1.0}[static_cast<std::size_t>(i % 5)];
+      const double distance = std::pow(10.0, random.uniform(-6, 6));
+      const Vec3d view = i % 7 == 0 ? n : normalised(across + n * lift);
+      views.add(random.direction() * distance, n, view, std::pow(10.0, random.uniform(-6, 0.5)));
+    }
+    for (const char* name : methods) {
+      const Answers found = answers(name, light, views);
+      for (std::size_t i = 0; i < views.alpha.size(); ++i) {
+        EXPECT_TRUE(found.of_f0[i] >= -1e-4f && found.of_f90[i] >= -1e-4f && found.of_f0[i] + found.of_f90[i] <= 1.0002f)
+            << name << ' ' << i << ' ' << found.of_f0[i] << ' ' << found.of_f90[i];
+      }
+    }
+  });
+}
+TEST(SpecularBatch, NotFinitePointsAreCounted) {
+  const Emitter light = white(rectangle({0, 0, 2}, {1, 0, 0}, {0, -1, 0}, 1, 1));
+  Random random(1);
+  Views views = views_around(light, random, 37);
+  const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  views.vy[3] = nan, views.alpha[11] = nan, views.surface.px[20] = infinity, views.surface.nz[36] = nan;
+  for (const char* name : methods) {
+    Answers found(37);
+    const auto batch = SpecularBatch::of(*SpecularBatch::rule_named(name), light);
+    const BatchOutcome outcome = batch->shares(views.points(), found.of_f0, found.of_f90, -7);
+    ASSERT_TRUE(outcome);
+    EXPECT_EQ(*outcome, 4u);
+    for (const std::size_t i : {3, 11, 20, 36}) EXPECT_EQ(found.of_f0[i], -7) << name;
+    for (const std::size_t i : {0, 4, 35}) EXPECT_GE(found.of_f0[i], 0) << name;
+  }
+}
+TEST(SpecularBatch, RefusesWhatItHasNoVectorsFor) {
+  EXPECT_FALSE(SpecularBatch::rule_named("karis"));
+  Emitter light = white(rectangle({0, 0, 2}, {1, 0, 0}, {0, -1, 0}, 1, 1));
+  const auto batch = SpecularBatch::of(SpecularRule::ltc, light);
+  ASSERT_TRUE(batch);
+  std::vector<float> one(1), two(2);
+  Views views;
+  views.add({}, {0, 0, 1}, {0, 0, 1}, 0.5);
+  EXPECT_EQ(batch->shares(views.points(), two, one, 0).error().code, "BATCH_SIZES_DIFFER");
+  EXPECT_EQ(batch->shares(views.points(), one, two, 0).error().code, "BATCH_SIZES_DIFFER");
+  light.window = {Falloff::gltf, 3};
+  EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc, light).error().code, "METHOD_SHAPE");
+  EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc, white(PunctualEmitter{{}, {}, {1, 1, 1}, PointShape{}})).error().code, "METHOD_SHAPE");
+}
+TEST(SpecularBatch, ScalesWithTheLuminance) {
+  const auto batch = SpecularBatch::of(SpecularRule::moments, white(rectangle({0, 0, 2}, {1, 0, 0}, {0, -1, 0}, 1, 1), 250));
+  ASSERT_TRUE(batch);
+  EXPECT_EQ(batch->scale().y, 250);
+}
+
+}  // namespace
