@@ -196,6 +196,34 @@ TEST(PublishedSpecular, PointsAreTheNearest) {
     EXPECT_NEAR(to_line(closest_to_ray({centre, radius}, r), r), std::max(distance - radius, 0.0), 1e-12);
   }
 }
+// Picott's is at the smallest angle, where the axis' line has one, ahead of the view; else that is where the angle is largest, and the
+// wrong end is nearer to it.
+TEST(PublishedSpecular, PicottsPointIsAtTheSmallestAngle) {
+  Random random(48);
+  int wrong = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Vec3d a = random.direction() * 3, b = a + random.direction() * random.uniform(0.1, 4), r = random.direction();
+    if (!(dot(a, r) > 0.1 && dot(b, r) > 0.1)) continue;
+    const auto cosine = [&](const Vec3d& p) { return dot(p, r) / length(p); };
+    const auto largest_of = [&](double from, double to) {
+      double at = from, largest = -1;
+      for (int k = 0; k <= 4000; ++k) {
+        const double t = from + (to - from) * k / 4000;
+        if (const double c = cosine(a + (b - a) * t); c > largest) largest = c, at = t;
+      }
+      return std::pair{largest, at};
+    };
+    const double found = cosine(picott_sphere({a, b, 0.1}, r).centre), largest = largest_of(0, 1).first;
+    // Sideways of the line at infinity the angle is that of its direction: the smallest one is within reach.
+    const double far = largest_of(-300, 300).second;
+    if (std::abs(far) < 290) {
+      EXPECT_NEAR(found, largest, 1e-5);
+    } else if (found < largest - 0.01) {
+      ++wrong;
+    }
+  }
+  EXPECT_GT(wrong, 10);
+}
 // Karis, eq 20: for an axis whose light is gathered in one point there is no alpha' in the notes; what is left out is alpha / alpha'.
 TEST(PublishedSpecular, Karis20LeavesTheLengthOut) {
   const ShadingPoint point = surface({}, {0, 0, 1}, {0, 0, 1}, mirror_lobe(0.01));

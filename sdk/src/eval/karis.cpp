@@ -28,8 +28,20 @@ SphereView nearest_sphere(const TubeView& tube, const Vec3d& r) {
   return {tube.a + span * saturate(t), tube.radius};
 }
 
-// Eq 10: what a light of that radius at that distance adds to alpha.
+SphereView picott_sphere(const TubeView& tube, const Vec3d& r) {
+  const Vec3d span = tube.b - tube.a;
+  const double a_span = dot(tube.a, span), r_a = dot(r, tube.a), r_span = dot(r, span);
+  const double divisor = a_span * r_span - dot(span, span) * r_a;
+  const double t = divisor != 0 ? (a_span * r_a - dot(tube.a, tube.a) * r_span) / divisor : 0;
+  return {tube.a + span * saturate(t), tube.radius};
+}
+
+namespace {
+
+// Eq 10: the alpha of a lobe as wide as one and a light of that radius at that distance together.
 double widened(double alpha, double radius, double distance) { return saturate(alpha + radius / (3 * distance)); }
+
+}  // namespace
 
 double sphere_normalisation(const SphereView& sphere, const LobeView& lobe) {
   const double ratio = lobe.alpha() / widened(lobe.alpha(), sphere.radius, length(sphere.centre));
@@ -41,9 +53,9 @@ double line_normalisation(const TubeView& tube, const SphereView& nearest, const
 
 namespace {
 
-double punctual_sphere(const SphereView& sphere, const Vec3d& n) {
-  return pi * sphere.radius * sphere.radius / dot(sphere.centre, sphere.centre) * cosine_towards(sphere.centre, n);
-}
+// lx facing a sphere of 1 cd/m2, as that of a point.
+double facing(const SphereView& sphere) { return pi * sphere.radius * sphere.radius / dot(sphere.centre, sphere.centre); }
+double punctual_sphere(const SphereView& sphere, const Vec3d& n) { return facing(sphere) * cosine_towards(sphere.centre, n); }
 // Eq 9 without a range.
 double punctual_sphere_9(const SphereView& sphere, const Vec3d& n) {
   return pi * sphere.radius * sphere.radius / (dot(sphere.centre, sphere.centre) + 1) * cosine_towards(sphere.centre, n);
@@ -81,9 +93,6 @@ constexpr DiffuseMethod methods[] = {
 
 // ---- Specular ----
 
-// lx facing a sphere of 1 cd/m2, as that of a point.
-double facing(const SphereView& sphere) { return pi * sphere.radius * sphere.radius / dot(sphere.centre, sphere.centre); }
-
 // D of the wider lobe in the place of D, towards the centre.
 Rgb equation_10(const SphereView& sphere, const LobeView& lobe) {
   const double wider = widened(lobe.alpha(), sphere.radius, length(sphere.centre));
@@ -102,14 +111,6 @@ Rgb equation_14(const SphereView& sphere, const LobeView& lobe) {
   return equation_11_mended(sphere, lobe) * sphere_normalisation(sphere, lobe);
 }
 
-// Picott's point of the axis, at the smallest angle to r (eq 18).
-SphereView picott_sphere(const TubeView& tube, const Vec3d& r) {
-  const Vec3d span = tube.b - tube.a;
-  const double a_span = dot(tube.a, span), r_a = dot(r, tube.a), r_span = dot(r, span);
-  const double divisor = a_span * r_span - dot(span, span) * r_a;
-  const double t = divisor != 0 ? (a_span * r_a - dot(tube.a, tube.a) * r_span) / divisor : 0;
-  return {tube.a + span * saturate(t), tube.radius};
-}
 // lx facing the line of eq 15 without its cosine, times the tube's width. No caps.
 double facing(const TubeView& tube) {
   return 4 * tube.radius * length(tube.b - tube.a) / (length(tube.a) * length(tube.b) + dot(tube.a, tube.b));
@@ -169,17 +170,17 @@ constexpr SpecularMethod specular[] = {
      "A point at the centre, with D of a lobe that is wider by the light's size: what is polished looks rough under a large light.",
      published<rules_10>},
     {"karis-11", "Karis 2013, eq 11",
-     "The sphere's point closest to the mirrored view. Printed: the vector to the ray has the wrong sign, so that it is the farthest one, "
-     "and "
-     "the highlight is all but lost.",
+     "The sphere's point closest to the mirrored view. Printed: the vector to the ray has the wrong sign, so that it is the farthest "
+     "one, and the highlight is all but lost.",
      published<rules_11>},
     {"karis-11-mended", "Karis 2013, eq 11",
      "The point that is meant, and no account of the light being gathered there: up to (size / alpha)^2 too bright.",
      published<rules_11_mended>},
-    {"karis-14", "Karis 2013, eq 14", "The same times (alpha / alpha')^2: what Unreal shipped. Too bright at grazing views.",
+    {"karis-14", "Karis 2013, eq 14", "The same times (alpha / alpha')^2, his sphere light. Too bright at grazing views.",
      published<rules_14>},
     {"karis-18", "Karis 2013, eq 18",
-     "Tubes: the axis' point at the smallest angle to the mirrored view (Picott 1992), then as a sphere, and all of karis-20-mended.",
+     "Tubes: the axis' point at the smallest angle to the mirrored view (Picott 1992), then as a sphere, and all of karis-20-mended. Taken "
+     "for a line, a view that leads away is met behind, and the wrong end is taken.",
      published<rules_18>},
     {"karis-19", "Karis 2013, eq 19",
      "Tubes: the axis' point closest to the mirrored view's line, then as a sphere; no account of the gathering.", published<rules_19>},

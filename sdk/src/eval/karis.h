@@ -16,9 +16,9 @@ Vec3d closest_to_ray(const SphereView& sphere, const Vec3d& r);
 // The sphere about the point of a tube's axis that is closest to the line along r (eq 19, clamped); about the first end if the axis has no
 // length or runs along r.
 SphereView nearest_sphere(const TubeView& tube, const Vec3d& r);
+// About the point that is seen at the smallest angle to r (Picott 1992; eq 18).
+SphereView picott_sphere(const TubeView& tube, const Vec3d& r);
 
-// Eq 10: the alpha of a lobe as wide as one and a light of that radius at that distance together.
-double widened(double alpha, double radius, double distance);
 // What gathering a sphere's or a line's light in one point brightens, taken back (eq 14; eq 20, with the length for a radius in eq 10).
 double sphere_normalisation(const SphereView& sphere, const LobeView& lobe);
 double line_normalisation(const TubeView& tube, const SphereView& nearest, const LobeView& lobe);

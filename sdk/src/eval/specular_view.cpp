@@ -61,10 +61,10 @@ LobeView::LobeView(const ShadingPoint& point, const SpecularLobe& of)
   lobe.alpha_x = lobe.alpha_y = std::max(lobe.alpha_x, min_alpha);
 }
 
-Rgb LobeView::operator()(const Vec3d& direction, const SpecularLobe& other) const {
+Rgb LobeView::operator()(const Vec3d& direction) const {
   const double size = length(direction);
   if (!(size > 0 && dot(surface_normal, direction) > 0)) return {};
-  return brdf_cos(other, frame.vector(view), frame.vector(direction / size));
+  return brdf_cos(lobe, frame.vector(view), frame.vector(direction / size));
 }
 
 double LobeView::density_ratio(const Vec3d& direction, double other_alpha) const {

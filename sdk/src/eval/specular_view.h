@@ -23,8 +23,7 @@ struct LobeView {
   LobeView(const ShadingPoint& point, const SpecularLobe& lobe);
 
   // BRDF times cosine (1/sr) of a direction of any length; 0 if it has none or is below a horizon.
-  Rgb operator()(const Vec3d& direction) const { return (*this)(direction, lobe); }
-  Rgb operator()(const Vec3d& direction, const SpecularLobe& other) const;
+  Rgb operator()(const Vec3d& direction) const;
   double alpha() const { return lobe.alpha_x; }
   // D of GGX with another alpha over D with the lobe's own.
   double density_ratio(const Vec3d& direction, double other_alpha) const;
