@@ -1,6 +1,7 @@
 #include "lobe_cells.h"
 
 #include "fresnel.h"
+#include "lobe_nodes.h"
 #include "microfacet.h"
 
 #include <cmath>
@@ -49,13 +50,13 @@ Legendre legendre(std::size_t n, double x) {
   return p;
 }
 
-// Gauss and Legendre's rule on [0, 1]. high[k] is 2 d + 1 times P_d, d = N - 1 - k: sums of weighted values with them are the coefficients
-// of the highest degrees that the rule can tell, in the same unit as the sum of the weighted values itself.
+// Gauss and Legendre's rule on [0, 1]. high[i][k] is 2 d + 1 times P_d there, d = N - 1 - k: sums of weighted values with them are the
+// coefficients of the highest degrees that the rule can tell, in the same unit as the sum of the weighted values itself.
 constexpr std::size_t told = 4;
 template <std::size_t N>
 struct Gauss {
   std::array<double, N> x{}, weight{};
-  std::array<std::array<double, N>, told> high{};
+  std::array<std::array<double, told>, N> high{};
   Gauss() {
     constexpr double n = N;
     for (std::size_t i = 0; i < N; ++i) {
@@ -68,7 +69,7 @@ struct Gauss {
       }
       x[i] = 0.5 * (1 + at);
       weight[i] = 1 / ((1 - at * at) * slope * slope);
-      for (std::size_t k = 0; k < told; ++k) high[k][i] = (2 * static_cast<double>(N - 1 - k) + 1) * legendre(N - 1 - k, at).last;
+      for (std::size_t k = 0; k < told; ++k) high[i][k] = (2 * static_cast<double>(N - 1 - k) + 1) * legendre(N - 1 - k, at).last;
     }
   }
 };
@@ -117,13 +118,12 @@ double left(const Tail& t) {
   if constexpr (N == 4) return std::max(followed, std::min(high, t.size * a * a * std::sqrt(a)));
   return followed;
 }
-template <std::size_t N>
-void add(Tail& t, const Gauss<N>& g, const double* row, std::size_t stride) {
-  for (std::size_t k = 0; k < told; ++k) {
-    double sum = 0;
-    for (std::size_t i = 0; i < N; ++i) sum += row[i * stride] * g.high[k][i];
-    t.coefficient[k] += std::abs(sum);
-  }
+using Coefficients = std::array<double, told>;
+inline void add(Coefficients& sum, double value, const Coefficients& high) {
+  for (std::size_t k = 0; k < told; ++k) sum[k] += value * high[k];
+}
+inline void add_magnitudes(Tail& t, const Coefficients& sum) {
+  for (std::size_t k = 0; k < told; ++k) t.coefficient[k] += std::abs(sum[k]);
 }
 
 double p_of(const Vec2d& q) {
@@ -141,7 +141,8 @@ void by_gauss(const DiskLobe& lobe, const LobeArc& arc, const LobeFan& fan, Lobe
   const Gauss<NX>& gx = gauss<NX>();
   const Gauss<NT>& gt = gauss<NT>();
   const double base = fan.base;
-  std::array<std::array<double, NT>, NX> plain{}, risen{};
+  alignas(64) std::array<double, LobeNodes::most> plain, risen;
+  LobeNodes nodes;
   std::array<double, NX> area{}, turns{};
   const double x_span = cell.x1 - cell.x0, t_span = cell.t1 - cell.t0;
   // Away from the middle the azimuth may turn fast where the outline is far out: of what no longer hangs on p it takes the exact turn.
@@ -152,21 +153,14 @@ void by_gauss(const DiskLobe& lobe, const LobeArc& arc, const LobeFan& fan, Lobe
   // A thin outline has no area that does not hang on p.
   const bool exact_turn = far && (base == 0 || outside(p_of(arc.at(lobe, arc.tau_of(0.5 * (cell.x0 + cell.x1))).q)) < 0.25 * outside(base));
   const double all = exact_turn ? outside(p_at(cell.t0, 1)) - outside(p_at(cell.t1, 1)) : 0;
-  // Along one ray from the base: what is in it of the remainder, a turn of the azimuth.
-  const auto along = [&](const Vec2d& q, double factor, double* plain_row, double* risen_row) {
-    const double q2 = q.x * q.x + q.y * q.y, per_root = 1 / (1 + std::sqrt(1 + q2)), q_length = std::sqrt(q2), p1 = q_length * per_root;
-    const double per_q = q_length > 0 ? 1 / q_length : 0;
-    const double row = factor * (base > 0 ? (p1 - base) * per_q : per_root) * 4 * t_span / pi;
-    const double vm_x = lobe.view.x * q.x + lobe.view.y * q.y;
+  // Nodes of one ray from the base; times the factor they add up to what is in it of the remainder.
+  const auto add_ray = [&](const Vec2d& q, double factor) {
+    const double q2 = q.x * q.x + q.y * q.y, q_length = std::sqrt(q2), per_root = 1 / (1 + std::sqrt(1 + q2));
+    const double per_q = q_length > 0 ? 1 / q_length : 0, view_q = lobe.view.x * q.x + lobe.view.y * q.y;
+    // p / |q| at both ends.
+    const double from_ratio = base > 0 ? base * per_q : 0, way = per_root - from_ratio, row = factor * way * 4 * t_span / pi;
     for (std::size_t j = 0; j < NT; ++j) {
-      const double t = cell.t0 + t_span * gt.x[j];
-      // p over |q|
-      const double ratio = base > 0 ? p_at(t, p1) * per_q : t * per_root;
-      const double p = ratio * q_length, less = (1 - p) * (1 + p), more = 1 / (1 + p * p);
-      const double stretch = 2 * ratio / less * lobe.alpha;  // slope m = stretch q
-      const LobeWeight at = weight_at(lobe, stretch * vm_x, stretch * stretch * q2);
-      const double here = row * gt.weight[j] * ratio * less * more * more * more;
-      plain_row[j] = here * (at.shape * (1 - at.w) - fan.level.plain), risen_row[j] = here * (at.shape * at.w - fan.level.risen);
+      nodes.add(from_ratio + (cell.t0 + t_span * gt.x[j]) * way, q2, view_q, row * gt.weight[j]);
     }
   };
   cell.turned = 0;
@@ -185,23 +179,36 @@ void by_gauss(const DiskLobe& lobe, const LobeArc& arc, const LobeFan& fan, Lobe
       const double outer = r_over_q(cell.t1), within = r_over_q(cell.t0);
       area[i] = weight * (outer - within) * (outer + within) / (2 * pi);
     }
-    along(place.q, weight, plain[i].data(), risen[i].data());
+    add_ray(place.q, weight);
   }
+  evaluate(lobe, fan.level, nodes, plain.data(), risen.data());
+  // The turn that the nodes have missed, times the most that rays have in them; where it is much, at both ends too.
+  const double off = std::abs(turn - cell.turned);
   Risen missed;
-  if (const double off = std::abs(turn - cell.turned); far && off > 1e-14) {
-    std::array<double, NT> plain_row{}, risen_row{};
-    for (const double x : {cell.x0, cell.x1}) {
-      const Vec2d q = arc.at(lobe, arc.tau_of(x)).q;
-      along(q, q.x * q.x + q.y * q.y, plain_row.data(), risen_row.data());
-      double plain_sum = 0, risen_sum = 0;
-      for (std::size_t j = 0; j < NT; ++j) plain_sum += plain_row[j], risen_sum += risen_row[j];
-      missed.plain = std::max(missed.plain, off * std::abs(plain_sum)), missed.risen = std::max(missed.risen, off * std::abs(risen_sum));
+  const auto count_ray = [&](const double* plain_row, const double* risen_row, double turned) {
+    double plain_sum = 0, risen_sum = 0;
+    for (std::size_t j = 0; j < NT; ++j) plain_sum += plain_row[j], risen_sum += risen_row[j];
+    const double times = off / std::max(std::abs(turned), 1e-300);
+    missed.plain = std::max(missed.plain, times * std::abs(plain_sum)), missed.risen = std::max(missed.risen, times * std::abs(risen_sum));
+  };
+  if (far) {
+    for (std::size_t i = 0; i < NX; ++i) count_ray(&plain[i * NT], &risen[i * NT], turns[i]);
+    if (off > 0.01 * std::abs(turn)) {
+      nodes.count = 0;
+      for (const Vec2d& q : {from, to}) add_ray(q, q.x * q.x + q.y * q.y);
+      alignas(64) std::array<double, LobeNodes::most> plain_ends, risen_ends;
+      evaluate(lobe, fan.level, nodes, plain_ends.data(), risen_ends.data());
+      for (const std::size_t end : {std::size_t{0}, NT}) count_ray(&plain_ends[end], &risen_ends[end], 1);
     }
   }
   double area_sum = 0;
   Tail area_tail;
-  add(area_tail, gx, area.data(), 1);
-  for (const double a : area) area_sum += a, area_tail.size += std::abs(a);
+  Coefficients area_coefficients{};
+  for (std::size_t i = 0; i < NX; ++i) {
+    add(area_coefficients, area[i], gx.high[i]);
+    area_sum += area[i], area_tail.size += std::abs(area[i]);
+  }
+  add_magnitudes(area_tail, area_coefficients);
   double area_error = left<NX>(area_tail);
   // Nor can the rule be right where it has not seen all of the turn, of which every ray has some area.
   if (!exact_turn) {
@@ -210,15 +217,22 @@ void by_gauss(const DiskLobe& lobe, const LobeArc& arc, const LobeFan& fan, Lobe
     area_error = std::max(area_error, least * std::abs(turn - cell.turned));
   }
   area_sum += turn * all / (2 * pi);
-  const auto judge = [&](const std::array<std::array<double, NT>, NX>& f, double level, double ends, double& value, double& error,
+  const auto judge = [&](const std::array<double, LobeNodes::most>& f, double level, double ends, double& value, double& error,
                          double& along_x, double& along_t) {
     double sum = 0;
     Tail x, t;
+    std::array<Coefficients, NT> columns{};
     for (std::size_t i = 0; i < NX; ++i) {
-      add(t, gt, f[i].data(), 1);
-      for (const double v : f[i]) sum += v, x.size += std::abs(v);
+      Coefficients row{};
+      for (std::size_t j = 0; j < NT; ++j) {
+        const double v = f[i * NT + j];
+        sum += v, x.size += std::abs(v);
+        add(row, v, gt.high[j]);
+        add(columns[j], v, gx.high[i]);
+      }
+      add_magnitudes(t, row);
     }
-    for (std::size_t j = 0; j < NT; ++j) add(x, gx, &f[0][j], NT);
+    for (const Coefficients& column : columns) add_magnitudes(x, column);
     t.size = x.size;
     along_x = left<NX>(x) + level * area_error + ends, along_t = left<NT>(t);
     value = sum + level * area_sum, error = safety * (along_x + along_t) + 1e-15 * x.size;
