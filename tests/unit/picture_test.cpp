@@ -178,6 +178,28 @@ TEST(Decode, RefusesTooLargeAndUnknown) {
   EXPECT_EQ(decode({"", junk, "image/png", "junk"}, Encoding::linear).error().code, "FILE_UNREADABLE");
 }
 
+// 150 rows are read as 64, 64 and 22.
+TEST(Decode, RowsAreThePictureFromTheTop) {
+  std::vector<unsigned char> bytes(std::size_t{5} * 150 * 3);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(7 * i + i / 450);
+  const ImageRef image = pixmap("rows.ppm", 5, 150, bytes);
+  const Result<DecodedImage> whole = decode(image, Encoding::srgb);
+  ASSERT_TRUE(whole.ok());
+  std::vector<float> rows;
+  std::uint32_t next = 0;
+  const Status read = decode_rows(image, Encoding::srgb, [&](const ImageRow& row) {
+    EXPECT_EQ(row.y, next++);
+    EXPECT_EQ(row.width, 5u);
+    EXPECT_EQ(row.height, 150u);
+    rows.insert(rows.end(), row.rgba.begin(), row.rgba.end());
+  });
+  ASSERT_TRUE(read.ok());
+  EXPECT_EQ(rows, whole->rgba);
+  const auto ignored = [](const ImageRow&) {};
+  EXPECT_EQ(decode_rows(image, Encoding::linear, ignored, 700).error().code, "PICTURE_UNSUITABLE");
+  EXPECT_EQ(decode_rows({"absent.png", nullptr, "", ""}, Encoding::linear, ignored).error().code, "FILE_UNREADABLE");
+}
+
 TEST(Decode, EmbeddedBytesKeepColoursUnderTransparentAlpha) {
   // A 1 x 1 PNG of 8-bit RGBA (200, 100, 50, 0): the colour must not be multiplied by alpha.
   const SharedBytes png(std::vector<std::uint8_t>{0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,

@@ -7,7 +7,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +56,14 @@ struct DecodedImage {
   std::vector<float> rgba;
 };
 Result<DecodedImage> decode(const ImageRef& image, Encoding encoding, std::uint64_t max_pixels = std::uint64_t{1} << 28);
+
+// The same numbers row by row from the top, of which no more than 64 rows or a row of tiles are in memory.
+struct ImageRow {
+  std::uint32_t width, height, y;
+  std::span<const float> rgba;
+};
+Status decode_rows(const ImageRef& image, Encoding encoding, const std::function<void(const ImageRow&)>& use,
+                   std::uint64_t max_pixels = std::uint64_t{1} << 32);
 
 // Bilinear (or nearest) lookup with the texture's wrap modes and uv transform. No mip maps, as in Mitsuba.
 struct Rgba {

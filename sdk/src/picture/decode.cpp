@@ -36,42 +36,42 @@ Error unreadable(const ImageRef& image, std::string text) {
 }
 
 // Numbers of the file to red, green, blue, alpha.
-DecodedImage spread(const std::vector<float>& values, const OIIO::ImageSpec& spec, bool srgb) {
-  DecodedImage out{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}};
+void spread(std::span<const float> values, const OIIO::ImageSpec& spec, bool srgb, std::span<float> rgba) {
   const auto channels = static_cast<std::size_t>(spec.nchannels);
-  const std::size_t pixels = std::size_t{out.width} * out.height;
   const bool has_alpha = channels == 2 || channels >= 4;
-  out.rgba.resize(pixels * 4);
-  for (std::size_t i = 0; i < pixels; ++i) {
+  for (std::size_t i = 0; i < rgba.size() / 4; ++i) {
     const float* in = values.data() + i * channels;
     for (std::size_t c = 0; c < 3; ++c) {
       const float v = in[channels < 3 ? 0 : c];
-      out.rgba[i * 4 + c] = srgb ? static_cast<float>(srgb_to_linear(static_cast<double>(v))) : v;
+      rgba[i * 4 + c] = srgb ? static_cast<float>(srgb_to_linear(static_cast<double>(v))) : v;
     }
-    out.rgba[i * 4 + 3] = has_alpha ? in[channels == 2 ? 1 : 3] : 1.0f;
+    rgba[i * 4 + 3] = has_alpha ? in[channels == 2 ? 1 : 3] : 1.0f;
   }
-  return out;
 }
 
-}  // namespace
-
-Result<DecodedImage> decode(const ImageRef& image, Encoding encoding, std::uint64_t max_pixels) {
-  OIIO::ImageSpec config;
-  config["oiio:UnassociatedAlpha"] = 1;                   // colours as stored, not multiplied by alpha
+struct Opened {
   std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;  // outlives its reader
   std::unique_ptr<OIIO::ImageInput> input;
+  OIIO::ImageSpec spec;
+  bool srgb = false;
+};
+
+Result<Opened> open(const ImageRef& image, Encoding encoding, std::uint64_t max_pixels) {
+  OIIO::ImageSpec config;
+  config["oiio:UnassociatedAlpha"] = 1;  // colours as stored, not multiplied by alpha
+  Opened out;
   if (image.embedded) {
     const char* name = name_for_reader({image.embedded.data(), image.embedded.size()});
     if (name == nullptr) return unreadable(image, "the first bytes are those of no known format");
-    memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::uint8_t*>(image.embedded.data()), image.embedded.size());
-    OIIO::Filesystem::IOProxy* proxy = memory.get();
+    out.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::uint8_t*>(image.embedded.data()), image.embedded.size());
+    OIIO::Filesystem::IOProxy* proxy = out.memory.get();
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<void*>(&proxy));
-    input = OIIO::ImageInput::open(name, &config, proxy);
+    out.input = OIIO::ImageInput::open(name, &config, proxy);
   } else {
-    input = OIIO::ImageInput::open(image.file, &config);
+    out.input = OIIO::ImageInput::open(image.file, &config);
   }
-  if (!input) return unreadable(image, OIIO::geterror());
-  const OIIO::ImageSpec spec = input->spec();
+  if (!out.input) return unreadable(image, OIIO::geterror());
+  const OIIO::ImageSpec& spec = out.spec = out.input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 64) {
     return unreadable(image, "expected a flat image of 1 to 64 channels");
   }
@@ -85,10 +85,48 @@ Result<DecodedImage> decode(const ImageRef& image, Encoding encoding, std::uint6
         {},
         {}};
   }
-  std::vector<float> values(width * height * static_cast<std::uint64_t>(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) return unreadable(image, input->geterror());
   // Files of floating-point numbers are linear whatever the slot says, as in Mitsuba's bitmap.
-  return spread(values, spec, encoding == Encoding::srgb && !spec.format.is_floating_point());
+  out.srgb = encoding == Encoding::srgb && !spec.format.is_floating_point();
+  return out;
+}
+
+}  // namespace
+
+Result<DecodedImage> decode(const ImageRef& image, Encoding encoding, std::uint64_t max_pixels) {
+  Result<Opened> opened = open(image, encoding, max_pixels);
+  if (!opened) return opened.error();
+  const OIIO::ImageSpec& spec = opened->spec;
+  DecodedImage out{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}};
+  const std::size_t pixels = std::size_t{out.width} * out.height;
+  std::vector<float> values(pixels * static_cast<std::size_t>(spec.nchannels));
+  if (!opened->input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
+    return unreadable(image, opened->input->geterror());
+  out.rgba.resize(pixels * 4);
+  spread(values, spec, opened->srgb, out.rgba);
+  return out;
+}
+
+Status decode_rows(const ImageRef& image, Encoding encoding, const std::function<void(const ImageRow&)>& use, std::uint64_t max_pixels) {
+  Result<Opened> opened = open(image, encoding, max_pixels);
+  if (!opened) return opened.error();
+  const OIIO::ImageSpec& spec = opened->spec;
+  const bool tiled = spec.tile_width > 0;
+  const int band = tiled ? spec.tile_height : std::min(64, spec.height);
+  const auto width = static_cast<std::size_t>(spec.width), channels = static_cast<std::size_t>(spec.nchannels);
+  std::vector<float> values(width * static_cast<std::size_t>(band) * channels), rgba(4 * width);
+  for (int begin = 0; begin < spec.height; begin += band) {
+    const int rows = std::min(band, spec.height - begin), y = spec.y + begin;
+    OIIO::ImageInput& input = *opened->input;
+    const bool read = tiled ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, y, y + rows, 0, 1, 0, spec.nchannels,
+                                               OIIO::TypeDesc::FLOAT, values.data())
+                            : input.read_scanlines(0, 0, y, y + rows, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data());
+    if (!read) return unreadable(image, input.geterror());
+    for (int row = 0; row < rows; ++row) {
+      spread(std::span(values).subspan(static_cast<std::size_t>(row) * width * channels, width * channels), spec, opened->srgb, rgba);
+      use({static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), static_cast<std::uint32_t>(begin + row), rgba});
+    }
+  }
+  return Done{};
 }
 
 }  // namespace etendue
