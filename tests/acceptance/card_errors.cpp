@@ -9,11 +9,13 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "etendue/light_card.h"
 #include "etendue/picture.h"
+#include "etendue/probe.h"
 #include "eval_protocol.h"
 
 namespace {
@@ -93,7 +95,29 @@ struct Tally {
   double error = 0, reference = 0, noise = 0;
   int beyond = 0, count = 0;
   double patches = 0, microseconds = 0;
+
+  void add(const Rgb& found, const Rgb& told, const Sampled& expected, int forms, double spent) {
+    const double off = sum_of(found - expected.value);
+    error += off, reference += sum_of(expected.value), noise += sum_of(expected.error);
+    beyond += off > 3 * (sum_of(told) + sum_of(expected.error)) ? 1 : 0;
+    ++count, patches += forms, microseconds += spent;
+  }
 };
+
+void print(std::string_view picture, std::string_view lobe, std::string_view method, std::span<const Tally> by_alpha) {
+  Tally all;
+  double worst = 0, worst_alpha = 0;
+  for (std::size_t a = 0; a < by_alpha.size(); ++a) {
+    const Tally& t = by_alpha[a];
+    all.error += t.error, all.reference += t.reference, all.noise += t.noise, all.beyond += t.beyond, all.count += t.count;
+    all.patches += t.patches, all.microseconds += t.microseconds;
+    if (t.reference > 0 && t.error / t.reference > worst) worst = t.error / t.reference, worst_alpha = alphas[a];
+  }
+  if (all.count == 0) return;
+  fmt::print("{} {} {} {:.4f} {:.4f} {} {:.4f} {:.0f} {:.0f} {:.4f}\n", picture, lobe, method, all.error / all.reference, worst,
+             worst_alpha, static_cast<double>(all.beyond) / all.count, all.patches / all.count, all.microseconds / all.count,
+             all.noise / all.reference);
+}
 
 }  // namespace
 
@@ -106,8 +130,8 @@ int main(int argc, char** argv) {
       fmt::print(stderr, "{}\n", picture.error().text);
       return 1;
     }
-    // Lambert, F = 1, f0 = .04.
-    std::array<std::array<Tally, std::size(alphas)>, 3> tallies{};
+    // Of Lambert, F = 1 and f0 = .04; of patches and of each lookup by name.
+    std::vector<std::array<std::array<Tally, std::size(alphas)>, 3>> tallies(1 + card_methods().size());
     Random random(7);
     for (int i = 0; i < geometries; ++i) {
       Placement p = place(Kind::rect, random, i % 2 == 0);
@@ -128,29 +152,23 @@ int main(int argc, char** argv) {
           const auto start = std::chrono::steady_clock::now();
           const auto found = by_patches(p.emitter, picture->card, point, {tolerance, 4096});
           const std::chrono::duration<double, std::micro> spent = std::chrono::steady_clock::now() - start;
-          Tally& t = tallies[lobe][a];
-          const double off = sum_of(found->value - expected.value);
-          t.error += off, t.reference += sum_of(expected.value), t.noise += sum_of(expected.error);
-          t.beyond += off > 3 * (sum_of(found->error) + sum_of(expected.error)) ? 1 : 0;
-          ++t.count, t.patches += found->patches, t.microseconds += spent.count();
+          tallies[0][lobe][a].add(found->value, found->error, expected, found->patches, spent.count());
+          for (std::size_t m = 0; m < card_methods().size(); ++m) {
+            const auto begin = std::chrono::steady_clock::now();
+            const auto looked_up = card_methods()[m].luminance(p.emitter, picture->card, point);
+            const std::chrono::duration<double, std::micro> taken = std::chrono::steady_clock::now() - begin;
+            if (looked_up) tallies[m + 1][lobe][a].add(*looked_up, {}, expected, 1, taken.count());
+          }
         }
       }
     }
     for (std::size_t lobe = 0; lobe < 3; ++lobe) {
-      Tally all;
-      double worst = 0, worst_alpha = 0;
-      for (std::size_t a = 0; a < std::size(alphas); ++a) {
-        const Tally& t = tallies[lobe][a];
-        all.error += t.error, all.reference += t.reference, all.noise += t.noise, all.beyond += t.beyond, all.count += t.count;
-        all.patches += t.patches, all.microseconds += t.microseconds;
-        if (t.reference > 0 && t.error / t.reference > worst) worst = t.error / t.reference, worst_alpha = alphas[a];
-      }
-      fmt::print("{} {} patches {:.4f} {:.4f} {} {:.4f} {:.0f} {:.0f} {:.4f}\n", picture->name,
-                 lobe == 0   ? "lambert"
-                 : lobe == 1 ? "1"
-                             : ".04",
-                 all.error / all.reference, worst, worst_alpha, static_cast<double>(all.beyond) / all.count, all.patches / all.count,
-                 all.microseconds / all.count, all.noise / all.reference);
+      for (std::size_t m = 0; m < tallies.size(); ++m)
+        print(picture->name,
+              lobe == 0   ? "lambert"
+              : lobe == 1 ? "1"
+                          : ".04",
+              m == 0 ? "patches" : card_methods()[m - 1].name, tallies[m][lobe]);
     }
   }
 }
