@@ -358,6 +358,15 @@ TEST(Cones, PyramidsMeetRectangles) {
   }
   EXPECT_GT(met, 20);
 }
+// Eden's printed tube falls off twice: ten times as far away it is a hundredth of the mended one once more.
+TEST(PublishedSpecular, EdensTubeFallsTwice) {
+  const ShadingPoint point = surface({}, {0, 0, 1}, {0, 0, 1}, mirror_lobe(0.5));
+  const auto share = [&](double distance) {
+    const Emitter tube = white(TubeEmitter{{-0.01, 0, distance}, {0.01, 0, distance}, 0.001, Caps::round});
+    return through("eden-tube", tube, point) / through("eden-tube-mended", tube, point);
+  };
+  EXPECT_NEAR(share(100) / share(10), 101.0 / 10001, 1e-6);
+}
 // The light that listing 6 gathers from all over the sun.
 TEST(PublishedSpecular, Frostbite6IsNotNormalised) {
   const double radius = 0.00465, lux = pi * std::sin(radius) * std::sin(radius);
