@@ -98,7 +98,8 @@ class Adaptive {
     std::vector<Vec2d> places;
     Vec2d nearest{1e300, 0};
     for (const Arc& arc : lit) {
-      const int parts = std::max(1, static_cast<int>(std::ceil((arc.end - arc.begin) / (0.5 * pi) - 1e-9)));
+      // A rim at a slant is a thin ellipse, whose sides come near on their own.
+      const int parts = std::max(1, static_cast<int>(std::ceil((arc.end - arc.begin) / ((arc.unit ? 0.5 : 0.25) * pi) - 1e-9)));
       const double span = (arc.end - arc.begin) / parts;
       for (int i = 0; i < parts; ++i) {
         Arc part = arc;
