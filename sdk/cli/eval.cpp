@@ -167,6 +167,9 @@ class Evaluator {
                                  std::span<const PointRow> points) const;
   // Whether the method takes this light.
   Status accepts(const Emitter& emitter, const std::string& name) const;
+  // Of patches: a light's card comes before it is asked for; the emitter stays where it is.
+  bool wants_cards() const { return patches_; }
+  void take_card(const Emitter& emitter, eval::LightCard card) { cards_.emplace(&emitter, std::move(card)); }
 
  private:
   Status choose_rule(const Options& options);
@@ -176,7 +179,10 @@ class Evaluator {
   std::optional<Answer> adaptively(const Emitter& emitter, const PointRow& point) const;
   Answer by_samples(const Emitter& emitter, const PointRow& point) const;
 
-  bool lambert_ = true, fast_ = false;
+  std::optional<Answer> by_card(const Emitter& emitter, const PointRow& point) const;
+
+  bool lambert_ = true, fast_ = false, patches_ = false;
+  std::map<const Emitter*, eval::LightCard> cards_;
   const eval::DiffuseMethod* published_ = nullptr;  // of lambert
   const eval::DiffuseRule* rule_ = nullptr;         // of other diffuse BRDFs
   const eval::SpecularMethod* specular_ = nullptr;  // of specular lobes
@@ -213,6 +219,10 @@ Result<Evaluator> Evaluator::of(const Options& o) {
   }
   if (o.samples || o.seed)
     return usage(fmt::format("--{}: expected --method monte-carlo with it, found {}", o.samples ? "samples" : "seed", o.method));
+  if (o.method == "patches") {
+    e.patches_ = true;
+    return e;
+  }
   e.adaptive_ = distributions.contains(o.brdf) && o.method == "adaptive";
   e.planned_ = o.tolerance_alone && !e.lambert_;
   if (o.method == "exact" || o.method == "reference" || e.adaptive_) {
@@ -264,6 +274,16 @@ Status Evaluator::accepts(const Emitter& emitter, const std::string& name) const
                  "--lights chooses some",
                  {}};
   };
+  if (patches_ && !by_card(emitter, probe)) {
+    return Error{
+        "METHOD_UNSUPPORTED",
+        fmt::format("light '{}': expected a rectangle without a range, and lambert or round GGX of correlated masking and Schlick's "
+                    "Fresnel, which patches takes",
+                    name),
+        {},
+        "--lights chooses some",
+        {}};
+  }
   // None knows patterns or ranges of area lights.
   if (published_ != nullptr &&
       !(has_closed_form(emitter) && !is_window(emitter.window) && published_->illuminance(emitter, probe.position, probe.normal)))
@@ -308,6 +328,13 @@ std::optional<Answer> Evaluator::adaptively(const Emitter& emitter, const PointR
   return Answer{estimate->value, largest(estimate->error), "adaptive"};
 }
 
+std::optional<Answer> Evaluator::by_card(const Emitter& emitter, const PointRow& p) const {
+  const auto found = eval::by_patches(emitter, cards_.at(&emitter), shading_point(p), {tolerance_, 1 << 16});
+  if (!found) return std::nullopt;
+  const double scale = lambert_ ? pi : 1;
+  return Answer{found->value * scale, largest(found->error) * scale, "patches"};
+}
+
 Answer Evaluator::by_rule(const Emitter& emitter, const PointRow& p) const {
   const eval::ShadingPoint point = shading_point(p);
   if (rule_ == nullptr && specular_ == nullptr) {
@@ -329,6 +356,7 @@ Answer Evaluator::by_samples(const Emitter& emitter, const PointRow& p) const {
 
 Answer Evaluator::operator()(const Emitter& emitter, const PointRow& p) const {
   if (sampling_) return by_samples(emitter, p);
+  if (patches_) return by_card(emitter, p).value_or(Answer{{}, 0, "patches"});
   if (adaptive_) return adaptively(emitter, p).value_or(Answer{{}, 0, "adaptive"});
   if (planned_) {
     const eval::LightWithin found = eval::light_within(emitter, shading_point(p), tolerance_);
@@ -462,7 +490,7 @@ class Sum {
 
 int run_eval(const Common& common, const Options& options) {
   Session session("eval", common);
-  const Result<Evaluator> evaluator = Evaluator::of(options);
+  Result<Evaluator> evaluator = Evaluator::of(options);
   if (!evaluator) return session.fail(evaluator.error());
   Result<Imported> imported = read_asset(session, options.asset, options.import);
   if (!imported) return session.fail(imported.error());
@@ -473,6 +501,11 @@ int run_eval(const Common& common, const Options& options) {
   const auto emitters = emitters_of(imported->scene, *lit);
   if (!emitters) return session.fail(emitters.error());
   const auto name = [&](std::size_t i) -> const std::string& { return imported->scene.lights[(*lit)[i]].name; };
+  for (std::size_t i = 0; i < emitters->size() && evaluator->wants_cards(); ++i) {
+    Result<eval::LightCard> card = card_of(imported->scene, imported->scene.lights[(*lit)[i]]);
+    if (!card) return session.fail(card.error());
+    evaluator->take_card((*emitters)[i], std::move(*card));
+  }
   for (std::size_t i = 0; i < emitters->size(); ++i)
     if (const Status ok = evaluator->accepts((*emitters)[i], name(i)); !ok) return session.fail(ok.error());
 
@@ -570,7 +603,9 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
       verb->add_option(
               "--method", options->method,
               "exact, fast (floats; of other diffuse BRDFs a few dozen evaluations, whose bound is an estimate that 99 of 100 keep), "
-              "reference, monte-carlo (samples of the light, with a statistical bound), or a method's name: published ones of diffuse "
+              "reference, monte-carlo (samples of the light, with a statistical bound), patches (pictures on rectangles, under lambert and "
+              "ggx, to "
+              "about --tolerance), or a method's name: published ones of diffuse "
               "light; of ggx adaptive (to --tolerance), moments, ltc, ltc-two-lobes, and published ones such as karis-14, drobot-elongated "
               "(of "
               "every round lobe), frostbite-6 (the sun). A name that is none lists them. With --tolerance alone, but for lambert: whatever "
@@ -602,7 +637,8 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
       "  etendue eval studio.rig.json --points floor.csv --brdf ggx --alpha 0.2 --fresnel conductor --eta 0.2,0.92,1.1 --k 3.9,2.4,2.1\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf oren-nayar --roughness 0.8 --method fast\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf standard --method monte-carlo --samples 1000000 --seed 7\n"
-      "  etendue eval studio.rig.json --points floor.csv --lights key --method frostbite-12");
+      "  etendue eval studio.rig.json --points floor.csv --lights key --method frostbite-12\n"
+      "  etendue eval screen.rig.json --points floor.csv --brdf ggx --alpha 0.2 --method patches --tolerance 1e-2");
   verb->callback([&common, &run, options, method, tolerance] {
     options->tolerance_alone = method->count() == 0 && tolerance->count() > 0;
     run = [&common, options] { return run_eval(common, *options); };

@@ -3,6 +3,7 @@
 
 #include "etendue/eval.h"
 #include "etendue/io.h"
+#include "etendue/light_card.h"
 #include "etendue/picture.h"
 #include "etendue/scene.h"
 
@@ -55,5 +56,8 @@ Result<Rendered> render(const Scene& scene, const RenderOptions& options, Progre
 // Lights of a scene, by index, as what eval.h evaluates, with their meshes, textures and environments decoded. The scene has to be valid.
 // Errors: EVALUATION_UNSUPPORTED, FILE_UNREADABLE.
 Result<std::vector<eval::Emitter>> emitters_of(const Scene& scene, std::span<const std::uint32_t> lights);
+// The card of a light's texture, read row by row; of a light without one a white one. Wrapping is that of Wrap::clamp.
+// Errors: EVALUATION_UNSUPPORTED (a texture that is looked up nearest or with a transform), FILE_UNREADABLE, PICTURE_UNSUITABLE.
+Result<eval::LightCard> card_of(const Scene& scene, const Light& light);
 
 }  // namespace etendue

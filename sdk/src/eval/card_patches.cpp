@@ -56,11 +56,10 @@ class Patches {
     return std::get<Lambert>(point_.brdf).base_colour * lux.value_or(Rgb{}) / pi;
   }
   // Of the whole rectangle, where that is not what `share` says of it already.
-  std::optional<Rgb> whole(double tolerance) {
+  std::optional<Estimate> whole(double tolerance) {
     if (!ggx_) return std::nullopt;
     std::get<PolygonEmitter>(patch_.shape) = rectangle_;
-    const auto light = specular_luminance(patch_, point_, tolerance);
-    return light ? std::optional(light->value) : std::nullopt;
+    return specular_luminance(patch_, point_, tolerance);
   }
   int count() const { return count_; }
 
@@ -144,9 +143,11 @@ std::optional<PatchEstimate> by_patches(const Emitter& emitter, const LightCard&
     for (int c = 0; c < 3; ++c) {
       // Where the moments see nothing of a lobe, nothing shares it out.
       if (!(shares[c] > 0)) shares[c] = 1, value[c] = static_cast<double>(card.cell(0, 0, 0).mean[c]), error[c] = value[c];
-      value[c] *= (*known)[c] / shares[c], error[c] *= (*known)[c] / shares[c];
+      const double mean = value[c] / shares[c];
+      value[c] = mean * known->value[c], error[c] = error[c] * known->value[c] / shares[c] + mean * known->error[c];
     }
   }
+  error += value * 1e-12;
   return PatchEstimate{value * emitter.radiance, error * emitter.radiance, patches.count()};
 }
 

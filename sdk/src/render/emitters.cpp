@@ -2,6 +2,8 @@
 
 #include "etendue/render.h"
 
+#include <array>
+#include <optional>
 #include <utility>
 
 namespace etendue {
@@ -53,6 +55,31 @@ Result<std::vector<eval::Emitter>> emitters_of(const Scene& scene, std::span<con
     emitters.push_back(std::move(*emitter));
   }
   return emitters;
+}
+
+Result<eval::LightCard> card_of(const Scene& scene, const Light& light) {
+  std::optional<eval::LightCardBuilder> builder;
+  if (!light.emission.texture) {
+    constexpr std::array<float, 4> white{1, 1, 1, 1};
+    builder.emplace(1, 1).add_row(white);
+    return std::move(*builder).finish();
+  }
+  const Texture& texture = *light.emission.texture;
+  const auto& m = texture.uv_transform;
+  const bool plain = m[0][0] == 1 && m[0][1] == 0 && m[0][2] == 0 && m[1][0] == 0 && m[1][1] == 1 && m[1][2] == 0;
+  if (texture.nearest || !plain) {
+    return Error{"EVALUATION_UNSUPPORTED",
+                 "light '" + light.name + "': expected a texture without a transform, whose texels are joined, for a card",
+                 {scene.file, 0, 0, {}},
+                 {},
+                 {}};
+  }
+  const Status read = decode_rows(scene.images[texture.image], texture.encoding, [&](const ImageRow& row) {
+    if (!builder) builder.emplace(row.width, row.height);
+    builder->add_row(row.rgba);
+  });
+  if (!read) return read.error();
+  return std::move(*builder).finish();
 }
 
 }  // namespace etendue
