@@ -101,6 +101,44 @@ TEST(SpecularBatch, IsTheMethodInDouble) {
     }
   });
 }
+// A sphere's circle is cut into four parts, in double into six, so that each has errors of its own, of which the batch's are twice as
+// large: all of them over all the light, within what is asked of a fast mode.
+TEST(SpecularBatch, OfASphereIsCloseToTheReference) {
+  Random random(4);
+  const Emitter light = white(SphereEmitter{{0.3, -0.2, 0.1}, 0.8});
+  Views views;
+  while (views.alpha.size() < 1500) {
+    Placement p{light, random.direction() * random.uniform(0.3, 5), random.direction(), {}};
+    const Vec3d view = view_of(p, random);
+    if (length(p.position - Vec3d{0.3, -0.2, 0.1}) > 0.84 && dot(view, p.normal) > 0.05)
+      views.add(p.position, p.normal, view, std::pow(10.0, random.uniform(-2, 0)));
+  }
+  std::vector<double> truth;
+  for (std::size_t i = 0; i < views.alpha.size(); ++i) truth.push_back(reference(light, views.point(i, 0.04, 1), {1e-4, 1e-8}).value.x);
+  on_each_instruction_set([&] {
+    const Answers found = answers("moments", light, views);
+    double errors = 0, sum = 0, apart = 0;
+    for (std::size_t i = 0; i < views.alpha.size(); ++i) {
+      const double value = 0.04 * static_cast<double>(found.of_f0[i]) + static_cast<double>(found.of_f90[i]);
+      errors += std::abs(value - truth[i]), sum += truth[i];
+      apart += std::abs(value - find_specular_method("moments")->luminance(light, views.point(i, 0.04, 1))->x);
+    }
+    EXPECT_LT(errors, 0.025 * sum);
+    EXPECT_LT(apart, 0.01 * sum);
+  });
+}
+TEST(SpecularBatch, OfASphereFromInsideAndAtItsSkinIsWhatItIsInDouble) {
+  const Emitter light = white(SphereEmitter{{}, 1});
+  Views views;
+  for (const double z : {0.0, 0.5, 0.999999, 1.0, 1.000001, 1.1, 30000.0})
+    views.add({0, 0, -z}, {0, 0, 1}, normalised(Vec3d{0.3, 0, 1}), 0.4);
+  const Answers found = answers("moments", light, views);
+  for (std::size_t i = 0; i < views.alpha.size(); ++i) {
+    const double expected = find_specular_method("moments")->luminance(light, views.point(i, 1, 1))->x;
+    EXPECT_NEAR(static_cast<double>(found.of_f0[i] + found.of_f90[i]), expected, 5e-3 * expected) << i;
+  }
+  EXPECT_GT(found.of_f0[6], 0);
+}
 TEST(SpecularBatch, HorizonsAndBacksAreDark) {
   const Emitter light = white(rectangle({0, 0, 2}, {1, 0, 0}, {0, -1, 0}, 1, 1));  // down
   Views views;
@@ -137,6 +175,24 @@ TEST(SpecularBatch, IsFiniteLight) {
     }
   });
 }
+TEST(SpecularBatch, OfASphereIsFiniteLight) {
+  on_each_instruction_set([] {
+    Random random(9);
+    const Emitter light = white(SphereEmitter{{}, 1});
+    Views views;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3d n = random.direction(), out = random.direction();
+      const double distance = 1 + std::pow(10.0, random.uniform(-6, 4));
+      const Vec3d view = i % 7 == 0 ? n : normalised(n + normalised(cross(n, out)) * std::pow(10.0, random.uniform(-2, 5)));
+      views.add(i % 5 == 0 ? n * -distance : out * distance, n, view, std::pow(10.0, random.uniform(-6, 0)));
+    }
+    const Answers found = answers("moments", light, views);
+    for (std::size_t i = 0; i < views.alpha.size(); ++i) {
+      EXPECT_TRUE(found.of_f0[i] >= -1e-4f && found.of_f90[i] >= -1e-4f && found.of_f0[i] + found.of_f90[i] <= 1.0002f)
+          << i << ' ' << found.of_f0[i] << ' ' << found.of_f90[i];
+    }
+  });
+}
 TEST(SpecularBatch, NotFinitePointsAreCounted) {
   const Emitter light = white(rectangle({0, 0, 2}, {1, 0, 0}, {0, -1, 0}, 1, 1));
   Random random(1);
@@ -165,6 +221,7 @@ TEST(SpecularBatch, RefusesWhatItHasNoVectorsFor) {
   EXPECT_EQ(batch->shares(views.points(), one, two, 0).error().code, "BATCH_SIZES_DIFFER");
   light.window = {Falloff::gltf, 3};
   EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc, light).error().code, "METHOD_SHAPE");
+  EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc, white(SphereEmitter{{}, 1})).error().code, "METHOD_SHAPE");
   EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc, white(PunctualEmitter{{}, {}, {1, 1, 1}, PointShape{}})).error().code, "METHOD_SHAPE");
 }
 TEST(SpecularBatch, ScalesWithTheLuminance) {

@@ -17,11 +17,15 @@ struct Shares {
   Lanes of_f0, of_f90;
 };
 
+// Lights that are smaller than this, in radians across, have too few digits in floats.
+inline constexpr float least_angle = 2e-4f;
+
 // The shading point's frame: z its normal, the view in the plane x >= 0, y = 0.
 struct ViewFrame {
   Vector3 x, y, z;
   Lanes cosine, sine;  // of the view
   Vector3 operator()(const Vector3& v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
+  Vector3 view() const { return {sine, number(0), cosine}; }
 };
 HWY_INLINE ViewFrame view_frame(const Vector3& normal, const Vector3& view) {
   const Floats d;

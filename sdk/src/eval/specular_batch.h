@@ -23,6 +23,8 @@ class SpecularBatch::Light {
 
 // Of an emitter of luminance 1; null if it is no rectangle.
 std::shared_ptr<const SpecularBatch::Light> specular_rect(const Emitter& white);
+// The same of a sphere, which moments take alone.
+std::shared_ptr<const SpecularBatch::Light> specular_sphere(SpecularRule rule, const Emitter& white);
 
 // The method in double at one point of a batch.
 SchlickShares in_double(SpecularRule rule, const Emitter& white, const SpecularPoints& points, std::size_t index);

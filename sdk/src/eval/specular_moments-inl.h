@@ -43,6 +43,15 @@ struct Quadratic {
     return along(along(c1, c2, hn::Add(t, t)), h, hn::Neg(grown));
   }
 };
+HWY_INLINE Vector3 bent(const Vector3& v, Lanes over_alpha) { return {hn::Mul(v.x, over_alpha), hn::Mul(v.y, over_alpha), v.z}; }
+// Of a part of a circle of directions: its middle is centre + outwards, `onwards` its direction there, both as long as the radius.
+HWY_INLINE Quadratic bent_arc(const Vector3& centre, const Vector3& outwards, const Vector3& onwards, Lanes tan_quarter,
+                              const Vector3& view, Lanes over_alpha) {
+  const Lanes u2 = hn::Mul(tan_quarter, tan_quarter);
+  const Vector3 base = view + centre;
+  return {bent(base + outwards, over_alpha), scaled(bent(onwards, over_alpha), hn::Add(tan_quarter, tan_quarter)),
+          scaled(bent(base - outwards, over_alpha), u2), u2};
+}
 // Of the great circle from a to b, unit vectors: with s = a + b and the cosine of half the angle c = |s| / 2, its middle is s / |s|, and
 // u = tan of a quarter of the angle, u^2 = (1 - c) / (1 + c) = |b - a|^2 / (4 (1 + c)^2).
 HWY_INLINE Quadratic bent_side(const Vector3& a, const Vector3& b, const Vector3& view, Lanes over_alpha) {
@@ -52,10 +61,7 @@ HWY_INLINE Quadratic bent_side(const Vector3& a, const Vector3& b, const Vector3
   const Lanes over = inverse(d, hn::MulAdd(hn::Mul(number(0.5f), squared), over_length, number(1)));
   const Lanes u2 = hn::Mul(hn::Mul(number(0.25f), dot(step, step)), hn::Mul(over, over));
   const Vector3 middle = scaled(sum, over_length);
-  const auto bent = [&](const Vector3& v) ETENDUE_INLINE_LAMBDA {
-    return Vector3{hn::Mul(v.x, over_alpha), hn::Mul(v.y, over_alpha), v.z};
-  };
-  return {bent(view + middle), scaled(bent(step), over), scaled(bent(view - middle), u2), u2};
+  return {bent(view + middle, over_alpha), scaled(bent(step, over_alpha), over), scaled(bent(view - middle, over_alpha), u2), u2};
 }
 // Where the nodes lie need not be exact: roots and inverses to 12 bits.
 HWY_INLINE Lanes near_root(Lanes x) { return hn::Mul(x, near_inverse_sqrt(Floats(), hn::Max(x, number(1e-30f)))); }
@@ -70,8 +76,8 @@ HWY_INLINE void add_side(const Quadratic& side, Lit seen, MomentSums& sums) {
     if constexpr (turn == 1) width = hn::Mul(hn::NegMulAdd(onwards, shift, dot(h, h)), over);
     nearest = within(hn::Sub(nearest, shift), one);
   });
-  // A third of the width, and one over it.
-  const Lanes over_width = hn::Min(near_inverse_sqrt(d, hn::Max(hn::Mul(width, number(1.0f / 9)), number(1e-12f))), number(1e6f));
+  // One over what is 1 / 4.5 of the width, and half of that.
+  const Lanes over_width = hn::Min(near_inverse_sqrt(d, hn::Max(hn::Mul(width, number(1 / (4.5f * 4.5f))), number(1e-12f))), number(1e6f));
   const Lanes half_width = hn::Mul(number(0.5f), near_inverse(over_width));
   // e^u at the ends and between them: sinh(u) = (e^u - e^-u) / 2.
   const auto exponential = [&](Lanes from) ETENDUE_INLINE_LAMBDA {
@@ -89,70 +95,80 @@ HWY_INLINE void add_side(const Quadratic& side, Lit seen, MomentSums& sums) {
   for (std::size_t i = 0; i < 4; i += 2) add_chord(at[i], at[i + 2], third, sums);
 }
 
+HWY_INLINE Shares shares_of(const MomentSums& sums, Lanes alpha, const ViewFrame& frame) {
+  const Floats d;
+  const Lanes zero = number(0), one = number(1);
+  const Lanes over = inverse(d, hn::Mul(sums.flat, number(3))), from_x = hn::Mul(sums.x, over), from_y = hn::Mul(sums.y, over);
+  const Lanes x = hn::Add(sums.place.x, from_x), y = hn::Add(sums.place.y, from_y);
+  const Lanes half = hn::Mul(over, number(0.5f)), quarter = hn::Mul(over, number(0.25f));
+  const Lanes least = number(1e-12f);
+  const Lanes xx = hn::Max(hn::NegMulAdd(from_x, from_x, hn::Mul(sums.xx, half)), least);
+  const Lanes yy = hn::NegMulAdd(from_y, from_y, hn::Mul(sums.yy, half));
+  const Lanes xy = hn::NegMulAdd(from_x, from_y, hn::Mul(sums.xy, quarter));
+  // (a, b) and (0, c) are u and w.
+  const Lanes over_a = inverse_sqrt(d, xx), a = hn::Mul(xx, over_a), b = hn::Mul(xy, over_a);
+  const Lanes c = hn::Sqrt(positive(hn::NegMulAdd(b, b, yy)));
+  const Lanes rim = hn::NegMulAdd(number(0.1f), hn::Max(hn::NegMulAdd(x, x, hn::NegMulAdd(y, y, one)), least), one);
+  const Lanes alpha2 = hn::Mul(alpha, alpha);
+  const auto root = [&](Lanes z) ETENDUE_INLINE_LAMBDA {
+    const Lanes z2 = hn::Mul(z, z);
+    return hn::Sqrt(hn::MulAdd(alpha2, hn::Sub(one, z2), z2));
+  };
+  const Lanes view_root = root(frame.cosine);
+  Lanes of_f0 = zero, of_f90 = zero;
+  const auto add = [&](Lanes across, Lanes up) ETENDUE_INLINE_LAMBDA {
+    const Lanes squared = hn::MulAdd(across, across, hn::Mul(up, up));
+    const Lanes inwards = hn::IfThenElse(hn::Gt(squared, rim), hn::Mul(hn::Sqrt(rim), inverse_sqrt(d, squared)), one);
+    const Vector3 bent{hn::Mul(alpha, hn::Mul(across, inwards)), hn::Mul(alpha, hn::Mul(up, inwards)),
+                       hn::Sqrt(hn::Sub(one, hn::Min(squared, rim)))};
+    const Vector3 h = unit(bent);
+    const Lanes v_dot_h = hn::MulAdd(frame.sine, h.x, hn::Mul(frame.cosine, h.z));
+    const Lanes n_dot_l = hn::MulSub(hn::Add(v_dot_h, v_dot_h), h.z, frame.cosine);
+    const Lanes below = hn::Mul(h.z, hn::MulAdd(n_dot_l, view_root, hn::Mul(frame.cosine, root(n_dot_l))));
+    const Lit seen = hn::And(hn::Gt(v_dot_h, zero), hn::Gt(n_dot_l, zero));
+    const Lanes shape = hn::IfThenElseZero(seen, hn::Div(hn::Mul(n_dot_l, v_dot_h), below));
+    const Lanes away = positive(hn::Sub(one, v_dot_h)), away2 = hn::Mul(away, away);
+    const Lanes grazing = hn::Mul(shape, hn::Mul(away, hn::Mul(away2, away2)));
+    of_f90 = hn::Add(of_f90, grazing);
+    of_f0 = hn::Add(of_f0, hn::Sub(shape, grazing));
+  };
+  constexpr float p = 1.30656296f, q = 0.541196100f;
+  const Lanes far_x = hn::Mul(a, number(p)), far_y = hn::MulAdd(b, number(p), hn::Mul(c, number(q)));
+  const Lanes near_x = hn::Mul(a, number(q)), near_y = hn::NegMulAdd(b, number(q), hn::Mul(c, number(p)));
+  add(hn::Add(x, far_x), hn::Add(y, far_y));
+  add(hn::Sub(x, far_x), hn::Sub(y, far_y));
+  add(hn::Sub(x, near_x), hn::Add(y, near_y));
+  add(hn::Add(x, near_x), hn::Sub(y, near_y));
+  // 2 / 4 of the nodes, and the area is half of its sum.
+  const Lanes twice = hn::Add(sums.flat, sums.rest);
+  const Lanes area =
+      hn::IfThenElseZero(hn::Gt(hn::Mul(twice, sums.flat), zero), hn::Mul(hn::Abs(twice), number(static_cast<float>(0.25 / pi))));
+  const Lanes most = hn::Mul(area, hn::Add(of_f0, of_f90));
+  const Lanes kept = hn::Mul(area, hn::Min(one, inverse(d, hn::Max(most, number(1e-30f)))));
+  return {hn::Mul(of_f0, kept), hn::Mul(of_f90, kept)};
+}
+
+// `from`: a direction of the outline.
+template <std::size_t N>
+HWY_INLINE Shares by_moments(const ViewFrame& frame, Lanes alpha, const Vector3& from, const std::array<Quadratic, N>& sides,
+                             const std::array<Lit, N>& seen) {
+  const Lanes zero = number(0);
+  MomentSums sums{unit(bent(frame.view() + from, inverse(Floats(), alpha))), zero, zero, zero, zero, zero, zero, zero};
+  // A loop that is left one: sides are hundreds of instructions each.
+  for (std::size_t i = 0; i < N; ++i) add_side(sides[i], seen[i], sums);
+  return shares_of(sums, alpha, frame);
+}
 struct ByMoments {
   template <std::size_t N>
   HWY_INLINE Shares operator()(const ViewFrame& frame, Lanes alpha, const Outline<N>& light) const {
-    const Lanes over_alpha = inverse(Floats(), alpha), zero = number(0);
-    const Vector3 view{frame.sine, zero, frame.cosine};
-    Vector3 place = light.from[0];
-    for (std::size_t i = N; i-- > 0;) place = chosen(light.seen[i], light.from[i], place);
-    const Vector3 half = view + place;
-    MomentSums sums{unit({hn::Mul(half.x, over_alpha), hn::Mul(half.y, over_alpha), half.z}), zero, zero, zero, zero, zero, zero, zero};
-    // A loop that is left one: sides are hundreds of instructions each.
-    for (std::size_t i = 0; i < N; ++i) add_side(bent_side(light.from[i], light.to[i], view, over_alpha), light.seen[i], sums);
-    return shares_of(sums, alpha, frame);
-  }
-  static HWY_INLINE Shares shares_of(const MomentSums& sums, Lanes alpha, const ViewFrame& frame) {
-    const Floats d;
-    const Lanes zero = number(0), one = number(1);
-    const Lanes over = inverse(d, hn::Mul(sums.flat, number(3))), from_x = hn::Mul(sums.x, over), from_y = hn::Mul(sums.y, over);
-    const Lanes x = hn::Add(sums.place.x, from_x), y = hn::Add(sums.place.y, from_y);
-    const Lanes half = hn::Mul(over, number(0.5f)), quarter = hn::Mul(over, number(0.25f));
-    const Lanes least = number(1e-12f);
-    const Lanes xx = hn::Max(hn::NegMulAdd(from_x, from_x, hn::Mul(sums.xx, half)), least);
-    const Lanes yy = hn::NegMulAdd(from_y, from_y, hn::Mul(sums.yy, half));
-    const Lanes xy = hn::NegMulAdd(from_x, from_y, hn::Mul(sums.xy, quarter));
-    // (a, b) and (0, c) are u and w.
-    const Lanes over_a = inverse_sqrt(d, xx), a = hn::Mul(xx, over_a), b = hn::Mul(xy, over_a);
-    const Lanes c = hn::Sqrt(positive(hn::NegMulAdd(b, b, yy)));
-    const Lanes rim = hn::NegMulAdd(number(0.1f), hn::Max(hn::NegMulAdd(x, x, hn::NegMulAdd(y, y, one)), least), one);
-    const Lanes alpha2 = hn::Mul(alpha, alpha);
-    const auto root = [&](Lanes z) ETENDUE_INLINE_LAMBDA {
-      const Lanes z2 = hn::Mul(z, z);
-      return hn::Sqrt(hn::MulAdd(alpha2, hn::Sub(one, z2), z2));
-    };
-    const Lanes view_root = root(frame.cosine);
-    Lanes of_f0 = zero, of_f90 = zero;
-    const auto add = [&](Lanes across, Lanes up) ETENDUE_INLINE_LAMBDA {
-      const Lanes squared = hn::MulAdd(across, across, hn::Mul(up, up));
-      const Lanes inwards = hn::IfThenElse(hn::Gt(squared, rim), hn::Mul(hn::Sqrt(rim), inverse_sqrt(d, squared)), one);
-      const Vector3 bent{hn::Mul(alpha, hn::Mul(across, inwards)), hn::Mul(alpha, hn::Mul(up, inwards)),
-                         hn::Sqrt(hn::Sub(one, hn::Min(squared, rim)))};
-      const Vector3 h = unit(bent);
-      const Lanes v_dot_h = hn::MulAdd(frame.sine, h.x, hn::Mul(frame.cosine, h.z));
-      const Lanes n_dot_l = hn::MulSub(hn::Add(v_dot_h, v_dot_h), h.z, frame.cosine);
-      const Lanes below = hn::Mul(h.z, hn::MulAdd(n_dot_l, view_root, hn::Mul(frame.cosine, root(n_dot_l))));
-      const Lit seen = hn::And(hn::Gt(v_dot_h, zero), hn::Gt(n_dot_l, zero));
-      const Lanes shape = hn::IfThenElseZero(seen, hn::Div(hn::Mul(n_dot_l, v_dot_h), below));
-      const Lanes away = positive(hn::Sub(one, v_dot_h)), away2 = hn::Mul(away, away);
-      const Lanes grazing = hn::Mul(shape, hn::Mul(away, hn::Mul(away2, away2)));
-      of_f90 = hn::Add(of_f90, grazing);
-      of_f0 = hn::Add(of_f0, hn::Sub(shape, grazing));
-    };
-    constexpr float p = 1.30656296f, q = 0.541196100f;
-    const Lanes far_x = hn::Mul(a, number(p)), far_y = hn::MulAdd(b, number(p), hn::Mul(c, number(q)));
-    const Lanes near_x = hn::Mul(a, number(q)), near_y = hn::NegMulAdd(b, number(q), hn::Mul(c, number(p)));
-    add(hn::Add(x, far_x), hn::Add(y, far_y));
-    add(hn::Sub(x, far_x), hn::Sub(y, far_y));
-    add(hn::Sub(x, near_x), hn::Add(y, near_y));
-    add(hn::Add(x, near_x), hn::Sub(y, near_y));
-    // 2 / 4 of the nodes, and the area is half of its sum.
-    const Lanes twice = hn::Add(sums.flat, sums.rest);
-    const Lanes area =
-        hn::IfThenElseZero(hn::Gt(hn::Mul(twice, sums.flat), zero), hn::Mul(hn::Abs(twice), number(static_cast<float>(0.25 / pi))));
-    const Lanes most = hn::Mul(area, hn::Add(of_f0, of_f90));
-    const Lanes kept = hn::Mul(area, hn::Min(one, inverse(d, hn::Max(most, number(1e-30f)))));
-    return {hn::Mul(of_f0, kept), hn::Mul(of_f90, kept)};
+    const Lanes over_alpha = inverse(Floats(), alpha);
+    std::array<Quadratic, N> sides{};
+    Vector3 from = light.from[0];
+    for (std::size_t i = N; i-- > 0;) {
+      sides[i] = bent_side(light.from[i], light.to[i], frame.view(), over_alpha);
+      from = chosen(light.seen[i], light.from[i], from);
+    }
+    return by_moments(frame, alpha, from, sides, light.seen);
   }
 };
 

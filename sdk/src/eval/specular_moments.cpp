@@ -16,29 +16,33 @@
 namespace etendue::eval {
 namespace {
 
+// Factors on f0 and on f90.
+struct SchlickParts {
+  double f0 = 0, f90 = 0;
+};
+
 class Disk {
  public:
-  Disk(const GgxLobe& lobe, const Vec3d& view)
-      : lobe_(lobe), alpha_(std::max(lobe.alpha, min_alpha)), view_(view), view_root_(root(view.z)) {}
+  Disk(double alpha, const Vec3d& view) : alpha_(std::max(alpha, min_alpha)), view_(view), view_root_(root(view.z)) {}
 
   Vec3d linear(const Vec3d& v) const { return {v.x / alpha_, v.y / alpha_, v.z}; }
   // h' of a direction, of any length.
   Vec3d bent(const Vec3d& light) const { return linear(view_ + light); }
   // W at a place of the disk, no further out than the radius squared `rim`; nothing where the light would come from below the horizon.
-  Rgb weight(const Vec2d& at, double rim) const {
+  SchlickParts weight(const Vec2d& at, double rim) const {
     const double squared = at.x * at.x + at.y * at.y, inwards = squared > rim ? std::sqrt(rim / squared) : 1;
     const double x = at.x * inwards, y = at.y * inwards;
     const Vec3d h = normalised(Vec3d{alpha_ * x, alpha_ * y, std::sqrt(1 - x * x - y * y)});
     const double v_dot_h = dot(view_, h), n_dot_l = 2 * v_dot_h * h.z - view_.z;
     if (!(v_dot_h > 0 && n_dot_l > 0)) return {};
     const double shape = 2 * n_dot_l * v_dot_h / (h.z * (n_dot_l * view_root_ + view_.z * root(n_dot_l)));
-    return schlick(lobe_.f0, lobe_.f90, schlick_weight(v_dot_h)) * shape;
+    const double grazing = shape * schlick_weight(v_dot_h);
+    return {shape - grazing, grazing};
   }
 
  private:
   double root(double x) const { return std::sqrt(x * x + alpha_ * alpha_ * (1 - x * x)); }
 
-  const GgxLobe& lobe_;
   double alpha_;
   Vec3d view_;
   double view_root_;
@@ -112,15 +116,15 @@ class Curve {
   std::array<Vec3d, 3> b_;
 };
 
-// Where the outline passes the lobe it takes a short way in its parameter: the pieces are even in u, t = t_0 + w sinh(u) / 3, with t_0 +- i
-// w close to where |v + l| is zero once the matrix has been at it: in two steps of Newton's from the middle, kept to the arc.
-constexpr double longest = 0.5 * pi, longest_great_circle = 0.999 * pi;
+// Where the outline passes the lobe it takes a short way in its parameter: the pieces are even in u, t = t_0 + w sinh(u) / 4.5, with t_0 +-
+// i w close to where |v + l| is zero once the matrix has been at it: in two steps of Newton's from the middle, kept to the arc.
+constexpr double longest = pi / 3, longest_great_circle = 0.999 * pi;
 void add(const Curve& curve, Enclosed& enclosed) {
   double nearest = 0, width = 1;
   for (int turn = 0; turn < 2; ++turn) {
     const Vec3d h = curve.at(nearest), speed = curve.speed(nearest);
     const double squared = std::max(dot(speed, speed), 1e-300);
-    width = std::max(length(cross(h, speed)) / (3 * squared), 1e-9);
+    width = std::max(length(cross(h, speed)) / (4.5 * squared), 1e-9);
     nearest = std::clamp(nearest - dot(h, speed) / squared, -1.0, 1.0);
   }
   const double first = std::asinh((-1 - nearest) / width), last = std::asinh((1 - nearest) / width);
@@ -141,8 +145,8 @@ Rgb by_moments(const Emitter& emitter, const ShadingPoint& point, const GgxLobe&
   const LocalFrame frame(turned);
   const Vec3d view = frame.vector(point.view);
   if (!(view.z > 0)) return Rgb{};
-  const Disk disk(lobe, view);
-  Rgb sum;
+  const Disk disk(lobe.alpha, view);
+  SchlickParts sum;
   each_outline(emitter, frame, [&](const Contour& outline, std::size_t) {
     Enclosed enclosed;
     for (const Arc& arc : clipped(outline, horizons_of(frame, point.normal, point.surface_normal))) {
@@ -152,17 +156,19 @@ Rgb by_moments(const Emitter& emitter, const ShadingPoint& point, const GgxLobe&
       for (int i = 0; i < parts; ++i) add(Curve(disk, arc, arc.begin + i * length, arc.begin + (i + 1) * length), enclosed);
     }
     if (!(enclosed.area() > 0) || enclosed.is_flat()) return;
-    Rgb weights;
     // At grazing views W grows without bound towards the rim, where there is hardly any area; a node may lie closer to it than all that is
     // enclosed, or beyond.
     const Vec2d middle = enclosed.middle();
     const double rim = 1 - 0.1 * std::max(1 - middle.x * middle.x - middle.y * middle.y, 1e-12);
-    for (const Vec2d& node : enclosed.nodes()) weights = weights + disk.weight(node, rim);
-    sum = sum + weights * (0.25 * enclosed.area() / pi);
+    const double share = 0.25 * enclosed.area() / pi;
+    for (const Vec2d& node : enclosed.nodes()) {
+      const SchlickParts weight = disk.weight(node, rim);
+      sum.f0 += share * weight.f0, sum.f90 += share * weight.f90;
+    }
   });
   // The lobe of a perfect mirror sums to 1 at most.
-  const Rgb most{std::max(lobe.f0.x, lobe.f90), std::max(lobe.f0.y, lobe.f90), std::max(lobe.f0.z, lobe.f90)};
-  return {std::min(sum.x, most.x), std::min(sum.y, most.y), std::min(sum.z, most.z)};
+  const double kept = 1 / std::max(sum.f0 + sum.f90, 1.0);
+  return lobe.f0 * (kept * sum.f0) + Rgb{1, 1, 1} * (kept * sum.f90 * lobe.f90);
 }
 
 }  // namespace etendue::eval

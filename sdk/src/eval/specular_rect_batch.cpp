@@ -34,7 +34,7 @@ template <class Of>
 class RectLobe {
  public:
   RectLobe(const SpecularRect& light, Of of) : light_(light), of_(of) {}
-  HWY_INLINE Shares operator()(const Vector3& position, const Vector3& normal, const Vector3& view, Lanes alpha, Lit&) const {
+  HWY_INLINE Shares operator()(const Vector3& position, const Vector3& normal, const Vector3& view, Lanes alpha, Lit& doubtful) const {
     const Floats d;
     const Lanes zero = number(0);
     const ViewFrame frame = view_frame(normal, view);
@@ -47,6 +47,9 @@ class RectLobe {
     // Their sum is turned where the back is seen.
     const Lit front = hn::Lt(height, zero);
     const Lit lit = hn::And(hn::Gt(frame.cosine, zero), light_.white.two_sided ? hn::Not(hn::Eq(height, zero)) : front);
+    const Vector3 across = corners[2] - corners[0], along = corners[3] - corners[1];
+    const Lanes size2 = hn::Min(dot(across, across), dot(along, along));
+    doubtful = hn::And(lit, hn::Lt(size2, number(least_angle * least_angle)));
     return {hn::IfThenElseZero(lit, shares.of_f0), hn::IfThenElseZero(lit, shares.of_f90)};
   }
 
