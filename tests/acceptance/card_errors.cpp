@@ -38,7 +38,8 @@ Sampled sampled(const Emitter& emitter, const ShadingPoint& point, int side, Ran
   std::array<Rgb, parts> sums;
   for (Rgb& sum : sums) {
     for (int i = 0; i < side * side; ++i) {
-      const auto jittered = [&] { return Vec2d{(i % side + random.uniform(0, 1)) / side, (i / side + random.uniform(0, 1)) / side}; };
+      const int column = i % side, row = i / side;
+      const auto jittered = [&] { return Vec2d{(column + random.uniform(0, 1)) / side, (row + random.uniform(0, 1)) / side}; };
       const LightSample light = sample_light(emitter, point.position, jittered());
       if (light.pdf > 0) {
         const Vec3d l = local(light.direction);
