@@ -38,4 +38,24 @@ inline Placement place(Kind kind, Random& random, bool above) {
   }
 }
 
+// Of scale_bias down to ranges at which it is a million times brighter than the light without it; of Karis' some without a range.
+inline Window random_window(Random& random, double range_m) {
+  switch (static_cast<int>(random.uniform(0, 7))) {
+    case 0:
+      return {Falloff::frostbite, range_m};
+    case 1:
+      return {Falloff::gltf, range_m};
+    case 2:
+      return {Falloff::linear, range_m};
+    case 3:
+      return {{random.uniform(0, 1) < 0.5 ? Falloff::Law::power : Falloff::Law::power_squared, random.log_uniform(1, 64)}, range_m};
+    case 4:
+      return {Falloff::smoothstep, range_m};
+    case 5:
+      return {Falloff::scale_bias, std::max(range_m, 1 + 1e-6)};
+    default:
+      return {Falloff::karis, random.uniform(0, 1) < 0.3 ? 0 : range_m};
+  }
+}
+
 }  // namespace etendue::eval::protocol

@@ -1,6 +1,10 @@
 #include "lights.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "etendue/eval.h"
 
 namespace etendue::mitsuba {
 namespace {
@@ -20,13 +24,17 @@ bool has_body(const Shape& shape) {
   return !is_punctual(shape) && !std::holds_alternative<DistantShape>(shape) && !std::holds_alternative<EnvironmentShape>(shape);
 }
 
-// Ours times window(d); Mitsuba's 1. At half the range (d/r)^4 = 1/16: 1 - 1/16 = .9375, squared .8789.
+// Ours times w(d); Mitsuba's 1.
 void report_window(Writer& writer, const Light& light) {
-  if (!light.range_m || light.falloff == Falloff::inverse_square) return;
-  const bool gltf = light.falloff == Falloff::gltf;
-  writer.losses.add(name_for_losses(light) + ": range " + text_of(*light.range_m) + " m",
-                    std::string("no window: ") + (gltf ? "+6.7 %" : "+13.8 %") + " at " + text_of(*light.range_m / 2) +
-                        " m, and light beyond the range, where there should be none");
+  const eval::Window window{light.falloff, light.range_m.value_or(0)};
+  if (!eval::is_window(window)) return;
+  const double at_m = light.range_m ? *light.range_m / 2 : 1, w = eval::window_at(window, at_m);
+  const std::string more = w > 0 ? fmt::format("{:+.1f} % at {} m", 100 * (1 / w - 1), text_of(at_m)) : "light at every distance";
+  if (light.range_m)
+    writer.losses.add(name_for_losses(light) + ": range " + text_of(*light.range_m) + " m",
+                      "no window: " + more + ", and light beyond the range, where there should be none");
+  else
+    writer.losses.add(name_for_losses(light) + ": falloff " + name_of(light.falloff), "inverse square: " + more);
 }
 
 void report_losses(Writer& writer, const Light& light) {

@@ -9,9 +9,6 @@ namespace {
 
 const char* name_of(Caps caps) { return caps == Caps::round ? "round" : caps == Caps::flat ? "flat" : "none"; }
 const char* name_of(Wrap wrap) { return wrap == Wrap::repeat ? "repeat" : wrap == Wrap::mirror ? "mirror" : "clamp"; }
-const char* name_of(Falloff falloff) {
-  return falloff == Falloff::inverse_square ? "inverse_square" : falloff == Falloff::frostbite ? "frostbite" : "gltf";
-}
 const char* name_of(FluxConvention convention) {
   switch (convention) {
     case FluxConvention::falloff:
@@ -24,6 +21,12 @@ const char* name_of(FluxConvention convention) {
       break;
   }
   return "isotropic";
+}
+
+// Whether the name alone does not say it.
+bool has_exponent(const Falloff& falloff) {
+  return falloff.law == Falloff::Law::power ? falloff != Falloff::linear && falloff != Falloff::gltf
+                                            : falloff.law == Falloff::Law::power_squared && falloff != Falloff::frostbite;
 }
 
 struct Unit {
@@ -216,7 +219,8 @@ Status write_light(Writer& writer, const Light& light) {
   if (light.two_sided) json.member("two_sided", true);
   if (!light.visible) json.member("visible", false);
   if (light.range_m) json.member("range", length_text(*light.range_m));
-  if (light.falloff != Falloff::inverse_square) json.member("falloff", name_of(light.falloff));
+  if (light.falloff.law != Falloff::Law::inverse_square) json.member("falloff", etendue::name_of(light.falloff));
+  if (has_exponent(light.falloff)) json.member("falloff_exponent", light.falloff.exponent);
   if (light.flux_convention != FluxConvention::falloff) json.member("flux_convention", name_of(light.flux_convention));
   if (light.surface_material) write_material_reference(writer, "surface_material", *light.surface_material);
   write_transform(json, light.transform, false);

@@ -88,10 +88,34 @@ void warn_without_effect(Reader& reader, const Light& light, JsonValue conventio
   Diagnostics& d = reader.diagnostics;
   const Shape& s = light.shape;
   if (convention && !is<SpotShape>(s)) warn(d, convention, "KEY_WITHOUT_EFFECT", "only the flux of a spot depends on a convention");
-  if (range && light.falloff == Falloff::inverse_square)
-    warn(d, range, "KEY_WITHOUT_EFFECT", "the falloff \"inverse_square\" has no end; \"range\" needs \"frostbite\" or \"gltf\"");
-  if (falloff && light.falloff != Falloff::inverse_square && !light.range_m)
+  const Falloff::Law law = light.falloff.law;
+  if (range && law == Falloff::Law::inverse_square)
+    warn(d, range, "KEY_WITHOUT_EFFECT", "the falloff \"inverse_square\" has no end; \"range\" needs another \"falloff\"");
+  if (falloff && law != Falloff::Law::inverse_square && law != Falloff::Law::karis && !light.range_m)
     warn(d, falloff, "KEY_WITHOUT_EFFECT", "without \"range\" the falloff is that of the inverse square");
+}
+
+Falloff read_falloff(JsonValue value, JsonValue exponent, Diagnostics& d) {
+  Falloff falloff = read_choice<Falloff>(value,
+                                         {{"inverse_square", Falloff::inverse_square},
+                                          {"linear", Falloff::linear},
+                                          {"gltf", Falloff::gltf},
+                                          {"power", {Falloff::Law::power}},
+                                          {"frostbite", Falloff::frostbite},
+                                          {"smoothstep", Falloff::smoothstep},
+                                          {"scale_bias", Falloff::scale_bias},
+                                          {"karis", Falloff::karis}},
+                                         d)
+                        .value_or(Falloff{});
+  const std::string_view name = value.is(JsonKind::string) ? value.string() : std::string_view();
+  if (name == "power" && !exponent) {
+    fail(d, value, "KEY_MISSING", "expected the key \"falloff_exponent\" beside \"power\": n of 1 - (d/r)^n");
+  } else if (exponent && name != "power" && name != "frostbite") {
+    warn(d, exponent, "KEY_WITHOUT_EFFECT", "the exponent is that of \"power\" and \"frostbite\"");
+  } else {
+    falloff.exponent = read_number(exponent, Falloff::least_exponent, Falloff::most_exponent, d).value_or(falloff.exponent);
+  }
+  return falloff;
 }
 
 // Units that do not fit the shape, sizes that are missing: what resolve() refuses is told where it stands.
@@ -128,9 +152,10 @@ void read_light(Reader& reader, JsonValue value) {
   const JsonValue range = fields.find("range");
   light.range_m = read_length(range, Bound::positive, d);
   const JsonValue falloff = fields.find("falloff");
-  light.falloff = read_choice<Falloff>(
-                      falloff, {{"inverse_square", Falloff::inverse_square}, {"frostbite", Falloff::frostbite}, {"gltf", Falloff::gltf}}, d)
-                      .value_or(Falloff::inverse_square);
+  light.falloff = read_falloff(falloff, fields.find("falloff_exponent"), d);
+  if (light.falloff.law == Falloff::Law::scale_bias && light.range_m && *light.range_m <= 1)
+    fail(d, range, "VALUE_OUT_OF_RANGE",
+         fmt::format("expected a range above 1 m with the falloff \"scale_bias\", found {} m", *light.range_m));
   const JsonValue convention = fields.find("flux_convention");
   light.flux_convention = read_choice<FluxConvention>(convention,
                                                       {{"falloff", FluxConvention::falloff},

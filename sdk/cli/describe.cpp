@@ -136,6 +136,7 @@ std::string describe(const Light& light) {
   if (light.filter != Rgb{1, 1, 1}) text += fmt::format(", filter {}", rgb_text(light.filter));
   if (light.two_sided) text += ", two-sided";
   if (light.range_m) text += fmt::format(", range {} m", number(*light.range_m));
+  if (light.falloff != Falloff::inverse_square) text += fmt::format(", falloff {}", name_of(light.falloff));
   return text;
 }
 
@@ -168,6 +169,7 @@ Json to_json(const Scene& scene, const Light& light) {
     if (resolved->kind == Resolved::Kind::luminance && y > 0) json["ev100"] = ev100_of_luminance(y);
   }
   if (light.range_m) json["range_m"] = *light.range_m;
+  if (light.falloff != Falloff::inverse_square) json["falloff"] = name_of(light.falloff);
   json["position"] = to_json(light.transform.translation);
   json["direction"] = to_json(-light.transform.columns[2]);
   if (!light.source.empty()) json["pointer"] = light.source;

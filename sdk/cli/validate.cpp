@@ -69,8 +69,9 @@ bool differs_as_authored(const Scene& scene) {
         std::holds_alternative<SpecularGlossiness>(material.model))
       return true;
   }
-  return std::any_of(scene.lights.begin(), scene.lights.end(),
-                     [](const Light& light) { return light.range_m && light.falloff != Falloff::inverse_square; });
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return eval::is_window({light.falloff, light.range_m.value_or(0)});
+  });
 }
 
 // Reports under a name of its own what would be called "rendering" twice.

@@ -31,17 +31,23 @@ Window window_of(Dialect dialect) {
 }
 
 void add_range(Dialect dialect, const Light& light, const std::string& name, LossReport& losses) {
-  if (!light.range_m) return;
+  if (!light.range_m) {
+    if (light.falloff == Falloff::karis) losses.add(name + ": falloff karis", "inverse square there: twice the light at 1 m");
+    return;
+  }
   const Window window = window_of(dialect);
   const std::string what = fmt::format("{}: range {} m", name, *light.range_m);
   if (window == Window::none)
     losses.add(what, "there is none: light reaches on");
   else if (window == Window::its_own)
     losses.add(what, "the program has a window of its own, not our (1 - (d/r)^4)^2");
-  else if (window == Window::gltf && light.falloff != Falloff::gltf)
+  else if (window == Window::gltf && light.falloff == Falloff::frostbite)
     losses.add(what, "its window there is 1 - (d/r)^4, by up to 25 % of the unwindowed light brighter than its square");
   else if (window == Window::frostbite && light.falloff == Falloff::gltf)
     losses.add(what, "its window there is (1 - (d/r)^4)^2, by up to 25 % of the unwindowed light darker than 1 - (d/r)^4");
+  else if (light.falloff != (window == Window::gltf ? Falloff::gltf : Falloff::frostbite))
+    losses.add(what, fmt::format("its window there is {}, not \"{}\"", window == Window::gltf ? "1 - (d/r)^4" : "(1 - (d/r)^4)^2",
+                                 name_of(light.falloff)));
 }
 
 void add_spot(Dialect dialect, const Light& light, const std::string& name, LossReport& losses) {

@@ -23,6 +23,24 @@ const char* name_of(const Shape& shape) {
   return names[shape.index()];
 }
 
+const char* name_of(const Falloff& falloff) {
+  switch (falloff.law) {
+    case Falloff::Law::inverse_square:
+      break;
+    case Falloff::Law::power:
+      return falloff == Falloff::linear ? "linear" : falloff == Falloff::gltf ? "gltf" : "power";
+    case Falloff::Law::power_squared:
+      return "frostbite";
+    case Falloff::Law::smoothstep:
+      return "smoothstep";
+    case Falloff::Law::scale_bias:
+      return "scale_bias";
+    case Falloff::Law::karis:
+      return "karis";
+  }
+  return "inverse_square";
+}
+
 bool emits_both_sides(const Light& light) {
   return light.two_sided && (std::holds_alternative<DiskShape>(light.shape) || std::holds_alternative<RectShape>(light.shape) ||
                              std::holds_alternative<PolygonShape>(light.shape) || std::holds_alternative<MeshShape>(light.shape));

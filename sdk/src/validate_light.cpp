@@ -65,7 +65,8 @@ struct CheckShape {
 
 void validate_light(Validator& check, const Light& light) {
   check.rigid(light.transform);
-  if (light.range_m) check.above("range in m", *light.range_m, 0);
+  if (light.range_m) check.above("range in m", *light.range_m, light.falloff.law == Falloff::Law::scale_bias ? 1 : 0);
+  check.between("exponent of the falloff", light.falloff.exponent, Falloff::least_exponent, Falloff::most_exponent);
   if (light.emission.texture) check.texture("the image of the emission's texture", *light.emission.texture);
   if (light.surface_material) {
     check.index("the surface's material", *light.surface_material, check.scene().materials.size());

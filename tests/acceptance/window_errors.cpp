@@ -57,8 +57,8 @@ void measure(Kind kind, const char* shape, bool above, Falloff falloff, int ligh
     const ShadingPoint point{p.position, normal, normal, normal, Lambert{{1, 1, 1}}};
     quadrature([&] { return reference(light, point, {1e-5, 0}); });
   }
-  fmt::print("{} {} {} {:.2g} {:.2g} {:.3g} {:.3g}\n", shape, above ? "above" : "across", falloff == Falloff::gltf ? "gltf" : "frostbite",
-             100 * batch_off / all, over_bound, 100 * position_off / all, quadrature.seconds() / closed.seconds());
+  fmt::print("{} {} {} {:.2g} {:.2g} {:.3g} {:.3g}\n", shape, above ? "above" : "across", name_of(falloff), 100 * batch_off / all,
+             over_bound, 100 * position_off / all, quadrature.seconds() / closed.seconds());
 }
 
 }  // namespace
@@ -72,5 +72,6 @@ int main(int argc, char** argv) {
                                     {Kind::flat_tube, "flat-tube"},
                                     {Kind::open_tube, "open-tube"}})
     for (const bool above : {true, false})
-      for (const Falloff falloff : {Falloff::frostbite, Falloff::gltf}) measure(kind, shape, above, falloff, lights);
+      for (const Falloff& falloff : {Falloff::frostbite, Falloff::gltf, Falloff::linear, Falloff::smoothstep, Falloff::karis})
+        measure(kind, shape, above, falloff, lights);
 }

@@ -33,21 +33,17 @@ std::vector<double> ratios(double low, double high, int count) {
 }
 Json point(double x, double y) { return Json::array({x, y}); }
 
-// Figure 25 of Lagarde and de Rousiers: 1/d^2 and its windows for a radius; window 1 is the library's, the others are eq 23 and 25, and a
-// smoothstep.
+// Figure 25 of Lagarde and de Rousiers: 1/d^2 and its windows for a radius.
 Json falloff(double radius) {
   Json curves;
-  const eval::Window frostbite{Falloff::frostbite, radius}, gltf{Falloff::gltf, radius};
   for (const double d : ratios(1, radius * 1.2, 400)) {
-    const double plain = 1 / (d * d), x = std::min(d / radius, 1.0), threshold = 1 / (radius * radius);
-    const double smooth = 1 - x * x * (3 - 2 * x);
-    const std::pair<const char*, double> values[] = {{"1/d^2", plain},
-                                                     {"window 1, n = 4 (ours, eq 26)", plain * eval::window_at(frostbite, d)},
-                                                     {"glTF", plain * eval::window_at(gltf, d)},
-                                                     {"window 2, n = 20 (eq 23)", plain * (1 - std::pow(x, 20))},
-                                                     {"window 3, smoothstep", plain * smooth},
-                                                     {"scale and bias (eq 25)", std::max(plain - threshold, 0.0) / (1 - threshold)}};
-    for (const auto& [name, value] : values) curves[name].push_back(point(d, value));
+    const std::pair<const char*, Falloff> windows[] = {{"1/d^2", Falloff::inverse_square},
+                                                       {"window 1, n = 4 (ours, eq 26)", Falloff::frostbite},
+                                                       {"glTF", Falloff::gltf},
+                                                       {"window 2, n = 20 (eq 23)", {Falloff::Law::power, 20}},
+                                                       {"window 3, smoothstep", Falloff::smoothstep},
+                                                       {"scale and bias (eq 25)", Falloff::scale_bias}};
+    for (const auto& [name, falloff] : windows) curves[name].push_back(point(d, eval::window_at({falloff, radius}, d) / (d * d)));
   }
   return curves;
 }

@@ -249,7 +249,7 @@ TEST(IlluminanceBatch, PunctualAndDistantLightsHoldTheirBound) {
       if (i % 4 == 1) lamp.shape = SpotShape{outer * (i % 8 == 1 ? 1 : random.uniform(0, 1)), outer};
       if (i % 4 == 2) lamp.shape = FrustumShape{1.9 * outer, random.uniform(0.01, 3)};
       light.shape = lamp;
-      if (i % 3 != 0) light.window = {i % 3 == 1 ? Falloff::frostbite : Falloff::gltf, 3 * size};
+      if (i % 3 != 0) light.window = protocol::random_window(random, 3 * size);
       if (i % 4 == 3) light.shape = DistantEmitter{random.direction(), {1, 1, 1}, i % 8 == 3 ? 0 : 0.9 * outer};
       const double width = i % 4 == 0 ? pi : 1.2 * outer;
       for (int k = 0; k < 37; ++k) {
@@ -387,13 +387,32 @@ TEST(IlluminanceBatch, AreaLightsAndLinesWithAWindow) {
   for (const Kind kind : {Kind::sphere, Kind::rect, Kind::disk, Kind::capsule, Kind::flat_tube, Kind::open_tube}) {
     for (int i = 0; i < 20; ++i) {
       Emitter light = protocol::place(kind, random, true).emitter;
-      light.window = {i % 2 == 0 ? Falloff::frostbite : Falloff::gltf, random.uniform(0.5, 4)};
+      light.window = protocol::random_window(random, random.uniform(0.5, 4));
       Points points;
       for (int k = 0; k < 37; ++k) points.add(centre_of(light.shape) + random.direction() * random.uniform(0, 5), random.direction());
       worst.judge(light, points, evaluated(light, points));
     }
   }
   EXPECT_LE(worst.ratio, 1);
+}
+
+// Polygons of any outline, wholly within the range, cut by it and beyond, above the horizon and across it.
+TEST(IlluminanceBatch, FlatLightsWithAWindowInVectors) {
+  on_each_instruction_set([] {
+    Random random(12);
+    Worst worst;
+    for (int i = 0; i < 200; ++i) {
+      Emitter light = i % 2 == 0 ? protocol::place(Kind::rect, random, i % 4 == 0).emitter : protocol::white(star(random, 3 + i % 7));
+      light.two_sided = i % 5 == 0;
+      light.window = {i % 3 == 0 ? Falloff::gltf : Falloff::frostbite, random.log_uniform(0.5, 30)};
+      Points points;
+      for (int k = 0; k < 67; ++k)
+        points.add(centre_of(light.shape) + random.direction() * (light.window.range_m * random.uniform(0, 1.2)), random.direction());
+      worst.judge(light, points, evaluated(light, points));
+    }
+    EXPECT_LE(worst.ratio, 1);
+    EXPECT_LE(worst.mean(), 4e-6);
+  });
 }
 
 TEST(IlluminanceBatch, ScaleTimesValueIsIlluminance) {

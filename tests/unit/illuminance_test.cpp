@@ -108,6 +108,30 @@ TEST(Fact, WindowsOfRange) {
   EXPECT_NEAR(window_at({Falloff::gltf, 10}, 7), 1 - std::pow(0.7, 4), 1e-15);
   EXPECT_EQ(window_at({Falloff::inverse_square, 10}, 7), 1);
   EXPECT_EQ(window_at({Falloff::gltf, 0}, 7), 1);
+  EXPECT_EQ(window_at({Falloff::linear, 10}, 7), 1 - 0.7);
+  EXPECT_NEAR(window_at({{Falloff::Law::power, 20}, 10}, 7), 1 - std::pow(0.7, 20), 1e-15);
+  EXPECT_NEAR(window_at({{Falloff::Law::power_squared, 3}, 10}, 7), std::pow(1 - 0.343, 2), 1e-15);
+  EXPECT_EQ(window_at({Falloff::smoothstep, 10}, 5), 0.5);
+  // (1 / 49 - 1 / 100) / (1 - 1 / 100) over 1 / 49, and 1 at 1 m.
+  EXPECT_NEAR(window_at({Falloff::scale_bias, 10}, 7) / 49, (1.0 / 49 - 0.01) / 0.99, 1e-15);
+  EXPECT_NEAR(window_at({Falloff::scale_bias, 10}, 1), 1, 1e-15);
+  EXPECT_EQ(window_at({Falloff::scale_bias, 1}, 0.5), 0);
+  EXPECT_NEAR(window_at({Falloff::karis, 10}, 7) / 49, std::pow(1 - std::pow(0.7, 4), 2) / 50, 1e-15);
+  EXPECT_NEAR(window_at({Falloff::karis, 0}, 1), 0.5, 1e-15);
+  EXPECT_EQ(window_at({Falloff::karis, 0}, 0), 0);
+  EXPECT_NEAR(window_at({Falloff::karis, 0}, 1e200), 1, 1e-15);
+}
+
+// Nothing beyond the range, and what is left there goes to nothing with it.
+TEST(Fact, WindowsEndAtTheirRange) {
+  for (const Falloff& falloff : {Falloff::linear, Falloff::gltf, Falloff{Falloff::Law::power, 64}, Falloff::frostbite, Falloff::smoothstep,
+                                 Falloff::scale_bias, Falloff::karis}) {
+    for (const double range : {1.5, 10.0, 1e6}) {
+      EXPECT_EQ(window_at({falloff, range}, range), 0);
+      EXPECT_EQ(window_at({falloff, range}, 2 * range), 0);
+      EXPECT_LE(window_at({falloff, range}, range * (1 - 1e-9)), 64e-9 * 2);
+    }
+  }
 }
 
 // The sun: E on a plane facing it, E cos theta otherwise, and continuous while it sets.

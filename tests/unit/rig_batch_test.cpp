@@ -69,7 +69,7 @@ Emitter any_light(int shape, Random& random, const Vec3d& half) {
       break;
     case 9: {
       e.shape = PunctualEmitter{at, frame, intensity, PointShape{}};
-      e.window = {random.uniform(0, 1) < 0.5 ? Falloff::gltf : Falloff::frostbite, random.uniform(1, 6)};
+      e.window = protocol::random_window(random, random.uniform(1, 6));
       break;
     }
     case 10: {
@@ -81,6 +81,7 @@ Emitter any_light(int shape, Random& random, const Vec3d& half) {
       e.shape = TubeEmitter{at, at + frame.columns[0] * (3 * size), 0.3 * size, Caps::none}, e.two_sided = false;
       break;
   }
+  if (shape % 5 == 0 && !is_window(e.window)) e.window = protocol::random_window(random, random.uniform(1, 6));
   return e;
 }
 

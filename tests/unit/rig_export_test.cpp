@@ -113,8 +113,8 @@ Said said_of(const Light& l) {
   if (const auto* t = std::get_if<TemperatureColour>(&l.colour)) say(said, t->kelvin);
   if (const auto* t = std::get_if<DaylightColour>(&l.colour)) say(said, t->kelvin);
   say(said, l.filter);
-  say(said, l.two_sided, l.visible, l.range_m.value_or(-1), static_cast<int>(l.falloff), static_cast<int>(l.flux_convention),
-      l.surface_material.value_or(no_index));
+  say(said, l.two_sided, l.visible, l.range_m.value_or(-1), static_cast<int>(l.falloff.law), l.falloff.exponent,
+      static_cast<int>(l.flux_convention), l.surface_material.value_or(no_index));
   say(said, l.transform.translation);
   return said;
 }
@@ -366,7 +366,10 @@ class Generator {
     l.two_sided = kind >= 5 && kind <= 7 && maybe();
     l.visible = maybe();
     if (maybe()) l.range_m = positive();
-    l.falloff = static_cast<Falloff>(below(3));
+    l.falloff.law = static_cast<Falloff::Law>(below(6));
+    if (l.falloff.law == Falloff::Law::power || l.falloff.law == Falloff::Law::power_squared)
+      l.falloff.exponent = maybe() ? 4 : between(Falloff::least_exponent, Falloff::most_exponent);
+    if (l.falloff == Falloff::scale_bias && l.range_m) *l.range_m += 1;
     l.flux_convention = static_cast<FluxConvention>(below(4));
     if (kind == 10 && maybe()) l.surface_material = static_cast<std::uint32_t>(below(3));
     l.transform = rigid();

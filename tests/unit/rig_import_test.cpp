@@ -196,6 +196,17 @@ TEST(RigImport, EveryKeyOfALight) {
   EXPECT_EQ(l.transform.vector({0, 0, -1}), (Vec3d{0, 0, 1}));  // half a turn about Y
   EXPECT_TRUE(only_light(R"("shape": {"type": "disk", "radius": 1}, "emission": {"flux": "1 lm"}, "two_sided": true)").two_sided);
   EXPECT_EQ(only_light(std::string(bulb) + R"("range": 1, "falloff": "gltf")").falloff, Falloff::gltf);
+  const auto falloff = [](const std::string& fields) {
+    return only_light(std::string(bulb) + R"("range": 2, "falloff": )" + fields).falloff;
+  };
+  EXPECT_EQ(falloff(R"("linear")"), Falloff::linear);
+  EXPECT_EQ(falloff(R"("power", "falloff_exponent": 20)"), (Falloff{Falloff::Law::power, 20}));
+  EXPECT_EQ(falloff(R"("power", "falloff_exponent": 4)"), Falloff::gltf);
+  EXPECT_EQ(falloff(R"("frostbite", "falloff_exponent": 2.5)"), (Falloff{Falloff::Law::power_squared, 2.5}));
+  EXPECT_EQ(falloff(R"("smoothstep")"), Falloff::smoothstep);
+  EXPECT_EQ(falloff(R"("scale_bias")"), Falloff::scale_bias);
+  EXPECT_EQ(falloff(R"("karis")"), Falloff::karis);
+  EXPECT_EQ(only_light(std::string(bulb) + R"("falloff": "karis")").falloff, Falloff::karis);  // and no warning
   const Light plain = only_light(std::string(bulb) + R"("name": "b")");
   EXPECT_TRUE(plain.visible);
   EXPECT_FALSE(plain.two_sided);
@@ -327,7 +338,12 @@ TEST(RigImport, LightErrors) {
   more(R"("two_sided": $1)", "TYPE_MISMATCH", "/two_sided");
   more(R"("visible": $"yes")", "TYPE_MISMATCH", "/visible");
   more(R"("range": $"-2 m", "falloff": "gltf")", "VALUE_OUT_OF_RANGE", "/range");
-  more(R"("falloff": $"linear")", "VALUE_UNKNOWN", "/falloff");
+  more(R"("falloff": $"cubic")", "VALUE_UNKNOWN", "/falloff");
+  more(R"("range": 2, "falloff": $"power")", "KEY_MISSING", "/falloff");
+  more(R"("range": 2, "falloff": "power", "falloff_exponent": $0.5)", "VALUE_OUT_OF_RANGE", "/falloff_exponent");
+  more(R"("range": 2, "falloff": "frostbite", "falloff_exponent": $65)", "VALUE_OUT_OF_RANGE", "/falloff_exponent");
+  more(R"("range": 2, "falloff": "frostbite", "falloff_exponent": $"4 m")", "TYPE_MISMATCH", "/falloff_exponent");
+  more(R"("range": $1, "falloff": "scale_bias")", "VALUE_OUT_OF_RANGE", "/range");
   more(R"("flux_convention": $"pi")", "VALUE_UNKNOWN", "/flux_convention");
   more(R"("rotation": $[0, 0, 0, 1.002])", "ROTATION_NOT_UNIT", "/rotation");
   more(R"("rotation": $[0, 0, 1])", "TYPE_MISMATCH", "/rotation");
@@ -437,6 +453,8 @@ TEST(RigImport, WarnsOfKeysWithoutEffect) {
   };
   more(R"("range": $"2 m")", "/range");
   more(R"("falloff": $"gltf")", "/falloff");
+  more(R"("falloff": $"smoothstep")", "/falloff");
+  more(R"("range": "2 m", "falloff": "gltf", "falloff_exponent": $3)", "/falloff_exponent");
   more(R"("flux_convention": $"cone")", "/flux_convention");
 }
 

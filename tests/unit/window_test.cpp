@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "../../sdk/src/eval/window_loss.h"
+#include "../../sdk/src/eval/window_part.h"
 #include "eval_protocol.h"
 
 namespace {
@@ -14,10 +14,24 @@ using namespace etendue::eval;
 using protocol::Kind;
 using protocol::Random;
 
-constexpr Falloff both[]{Falloff::frostbite, Falloff::gltf};
+// The first two are polynomials of d^4, whose loss is integrated; of the others it is what is left.
+constexpr Falloff polynomials[]{Falloff::frostbite, Falloff::gltf};
+constexpr Falloff all[]{Falloff::frostbite,
+                        Falloff::gltf,
+                        Falloff::linear,
+                        {Falloff::Law::power, 20},
+                        Falloff::smoothstep,
+                        Falloff::scale_bias,
+                        {Falloff::Law::power_squared, 2.5},
+                        Falloff::karis};
+constexpr int count = static_cast<int>(std::size(all));
 
+// scale_bias has no shorter ranges than 1 m.
+Window window_of(Falloff falloff, double range_m) {
+  return {falloff, falloff == Falloff::scale_bias && range_m <= 1 ? range_m + 1 : range_m};
+}
 Emitter windowed(Emitter emitter, Falloff falloff, double range_m) {
-  emitter.window = {falloff, range_m};
+  emitter.window = window_of(falloff, range_m);
   return emitter;
 }
 
@@ -46,20 +60,23 @@ double farthest(const EmitterShape& shape, const Vec3d& p) {
 TEST(Window, OfEveryShapeIsWhatTheQuadratureGives) {
   for (const Kind kind : {Kind::rect, Kind::sphere, Kind::disk, Kind::capsule, Kind::flat_tube, Kind::open_tube}) {
     Random random(static_cast<std::uint64_t>(kind) + 3);
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 4 * count; ++i) {
       const protocol::Placement p = protocol::place(kind, random, i % 2 == 0);
-      const Emitter light = windowed(p.emitter, both[i % 4 / 2], random.log_uniform(0.3, 12));
+      const double range = random.log_uniform(0.3, 12);
+      const Emitter light = windowed(p.emitter, all[i / 2 % count], i == 2 * count - 1 ? 0 : range);
       const double open = protocol::lux_at(p.emitter, p.position, p.normal), closed = protocol::lux_at(light, p.position, p.normal);
       const double quadrature = by_quadrature(light, p.position, p.normal, {1e-9, 1e-11 * open}).value.x;
-      const bool smooth = (kind == Kind::rect || kind == Kind::disk) && farthest(light.shape, p.position) < light.window.range_m;
+      const bool endless = light.window.range_m == 0;
+      const bool smooth =
+          (kind == Kind::rect || kind == Kind::disk) && (endless || farthest(light.shape, p.position) < light.window.range_m);
       EXPECT_NEAR(closed, quadrature, (smooth ? 1e-9 : 1e-6) * open) << static_cast<int>(kind) << " " << i;
-      EXPECT_LE(closed, open);
+      EXPECT_LE(closed, open * std::max(window_at(light.window, 0), 1.0));
     }
   }
 }
 
-// Straight above, with q the squared distance: E = pi h^2 integral of w / q^2 dq, from h^2 to the rim or the range. 1 / q^2 less 2 / r^4
-// and plus q^2 / r^8 has a primitive.
+// Straight above, with q the squared distance: E = pi h^2 integral of w / q^2 dq, from h^2 to the rim or the range. Each has a primitive:
+// here in metres.
 TEST(Window, OfADiskStraightAbove) {
   const double h = 0.7, range = 1.9;
   for (const double radius : {0.1, 1.0, 3.0}) {
@@ -69,13 +86,43 @@ TEST(Window, OfADiskStraightAbove) {
     const double frostbite = open - 2 * (q1 - q0) / r4 + (std::pow(q1, 3) - std::pow(q0, 3)) / (3 * r4 * r4);
     EXPECT_NEAR(protocol::lux_at(windowed(disk, Falloff::gltf, range), {}, {0, 0, 1}), pi * h * h * gltf, 1e-14);
     EXPECT_NEAR(protocol::lux_at(windowed(disk, Falloff::frostbite, range), {}, {0, 0, 1}), pi * h * h * frostbite, 1e-14);
+    const auto lux = [&](Falloff falloff, double r) { return protocol::lux_at(windowed(disk, falloff, r), {}, {0, 0, 1}) / (pi * h * h); };
+    const double d0 = std::sqrt(q0), d1 = std::sqrt(q1), r = range, log = std::log(q1 / q0);
+    EXPECT_NEAR(lux(Falloff::linear, r), open - 2 / r * (1 / d0 - 1 / d1), 1e-13);
+    EXPECT_NEAR(lux({Falloff::Law::power, 20}, r), open - (std::pow(q1, 9) - std::pow(q0, 9)) / (9 * std::pow(r, 20)), 1e-13);
+    EXPECT_NEAR(lux(Falloff::smoothstep, r), open - 3 * log / (r * r) + 4 * (d1 - d0) / (r * r * r), 1e-13);
+    EXPECT_NEAR(lux(Falloff::scale_bias, r), (open - log / (r * r)) / (1 - 1 / (r * r)), 1e-13);
+    EXPECT_NEAR(lux({Falloff::Law::power_squared, 3}, r),
+                open - 4 * (d1 - d0) / std::pow(r, 3) + (q1 * q1 - q0 * q0) / (2 * std::pow(r, 6)), 1e-13);
+    const double soft = std::log((q0 + 1) / (q1 + 1)) + log, s1 = std::log((q1 + 1) / (q0 + 1));
+    const double taken =
+        2 * (q1 - q0 - s1) / r4 - ((q1 * q1 * q1 - q0 * q0 * q0) / 3 - (q1 * q1 - q0 * q0) / 2 + (q1 - q0) - s1) / (r4 * r4);
+    EXPECT_NEAR(lux(Falloff::karis, r), soft - taken, 1e-13);
+    const double rim = h * h + radius * radius;
+    EXPECT_NEAR(lux(Falloff::karis, 0), std::log((q0 + 1) / (rim + 1) * rim / q0), 1e-13);
   }
 }
 
-// Facing a sphere: E = 2 pi integral of mu w dmu, mu = (d^2 + c^2 - R^2) / (2 c d): rational in d. By Simpson's rule in d, 2000 steps.
+// Karis' 1 m is far less than the range, or far more.
+TEST(Window, OfKarisInEveryUnit) {
+  for (const double r : {1e-4, 1e-2, 0.9, 1.1, 30.0, 1e5}) {
+    const double h = 0.3 * r, radius = 0.7 * r, q0 = h * h, q1 = q0 + radius * radius;
+    const Emitter disk = windowed(protocol::white(DiskEmitter{{0, 0, h}, {0, 0, -1}, {1, 0, 0}, radius}), Falloff::karis, r);
+    double sum = 0;
+    const int steps = 20000;  // of Simpson's rule in log q
+    for (int i = 0; i <= steps; ++i) {
+      const double q = q0 * std::pow(q1 / q0, static_cast<double>(i) / steps);
+      sum += (i % steps == 0 ? 1 : 2 << (i % 2)) * window_at(disk.window, std::sqrt(q)) / q;
+    }
+    const double expected = pi * h * h * sum * std::log(q1 / q0) / (3 * steps);
+    EXPECT_NEAR(protocol::lux_at(disk, {}, {0, 0, 1}) / expected, 1, 1e-11) << r;
+  }
+}
+
+// Facing a sphere: E = 2 pi integral of mu w dmu, mu = (d^2 + c^2 - R^2) / (2 c d): rational in d. By Simpson's rule in d, 20000 steps.
 TEST(Window, OfASphereThatIsFaced) {
   const double c = 2, radius = 0.8;
-  for (const Falloff falloff : both) {
+  for (const Falloff& falloff : all) {
     for (const double range : {1.3, 1.7, 4.0}) {
       const Emitter ball = windowed(protocol::white(SphereEmitter{{0, 0, c}, radius}), falloff, range);
       const double first = c - radius, last = std::min(std::sqrt(c * c - radius * radius), range);
@@ -83,7 +130,7 @@ TEST(Window, OfASphereThatIsFaced) {
         const double tangent2 = c * c - radius * radius, mu = (d * d + tangent2) / (2 * c * d);
         return 2 * pi * mu * window_at(ball.window, d) * (tangent2 / (d * d) - 1) / (2 * c);
       };
-      const int steps = 2000;
+      const int steps = 20000;
       double sum = 0;
       for (int i = 0; i <= steps; ++i)
         sum += (i == 0 || i == steps ? 1
@@ -102,11 +149,14 @@ TEST(Window, OfASphereIsThatOfItsHalves) {
   for (int i = 0; i < 2000; ++i) {
     const double radius = random.log_uniform(0.01, 3);
     const Vec3d centre = random.direction() * (radius * (1 + random.log_uniform(1e-3, 10))), axis = random.direction();
-    const Taken taken(both[i % 2]);
-    const double whole = ball_loss(centre, radius, taken, {}),
-                 all = protocol::lux_at(protocol::white(SphereEmitter{centre, radius}), {}, {0, 0, 1});
-    worst = std::max(worst, std::abs(ball_loss(centre, radius, taken, axis) + ball_loss(centre, radius, taken, -axis) - whole));
-    if (length(centre) - radius >= 1) worst = std::max(worst, std::abs(whole - all));
+    const Taken taken(Window{polynomials[i % 2], 1});
+    const double whole = ball_part(centre, radius, taken, {}),
+                 open = protocol::lux_at(protocol::white(SphereEmitter{centre, radius}), {}, {0, 0, 1});
+    worst = std::max(worst, std::abs(ball_part(centre, radius, taken, axis) + ball_part(centre, radius, taken, -axis) - whole));
+    if (length(centre) - radius >= 1) worst = std::max(worst, std::abs(whole - open));
+    const Kept kept(Window{all[2 + i % (count - 2)], i % 3 == 0 ? 2.0 : 1.2});
+    const double left = ball_part(centre, radius, kept, {});
+    worst = std::max(worst, std::abs(ball_part(centre, radius, kept, axis) + ball_part(centre, radius, kept, -axis) - left));
   }
   EXPECT_LE(worst, 1e-12);
 }
@@ -120,7 +170,7 @@ TEST(Window, OfTheSideOfATube) {
     const double distance = random.uniform(0.5, 2), from = random.uniform(-2, 1);  // the point stands at -distance across
     const Vec3d a = across * distance + axis * from, b = a + axis * (2 * half), n = normalised(a + b);
     if (std::min(dot(n, a), dot(n, b)) < radius) continue;
-    const Emitter tube = windowed(protocol::white(TubeEmitter{a, b, radius, Caps::none}), both[i % 2], length(a) + length(b));
+    const Emitter tube = windowed(protocol::white(TubeEmitter{a, b, radius, Caps::none}), all[i % count], length(a) + length(b));
     const double last = std::acos(radius / distance);
     const int steps = 400;
     double sum = 0;
@@ -145,7 +195,7 @@ TEST(Window, IsAdditive) {
     const auto part = [&](std::vector<Vec3d> vertices) {
       Emitter e = protocol::white(PolygonEmitter{std::move(vertices), n, {}});
       e.two_sided = true;
-      return windowed(e, both[i % 2], 1.5);
+      return windowed(e, all[i % count], 1.5);
     };
     // An L: [-1, 1]^2 without (0, 1]^2.
     const Emitter whole = part({at(-1, -1), at(1, -1), at(1, 0), at(0, 0), at(0, 1), at(-1, 1)});
@@ -171,7 +221,7 @@ TEST(Window, OfALineIsThatOfAThinTube) {
     Emitter line;
     const double cd = 2 * radius * length(b - a);
     line.shape = LineEmitter{a, b, {cd, cd, cd}};
-    const Window window{both[i % 2], random.uniform(0.4, 4)};
+    const Window window = window_of(all[i % count], random.uniform(0.4, 4));
     Emitter tube = protocol::white(TubeEmitter{a, b, radius, Caps::none});
     const double open = protocol::lux_at(tube, {}, n);
     line.window = tube.window = window;
@@ -188,13 +238,15 @@ TEST(Window, OfALightFarAwayIsThatOfItsDistance) {
     const Vec3d centre = away * (farthest(light.shape, {}) / 2), p = centre - away * 1e4;
     const double open = protocol::lux_at(light, p, away), size = farthest(light.shape, centre);
     ASSERT_GT(open, 0);
-    for (const Falloff falloff : both) {
+    for (const Falloff& falloff : all) {
       for (const double x : {0.1, 0.5, 0.9, 0.99}) {
-        const double expected = window_at({falloff, 1}, x), slope = 8 * x * x * x * size / 1e4;
-        EXPECT_NEAR(protocol::lux_at(windowed(light, falloff, 1e4 / x), p, away) / open, expected, slope + 1e-9) << static_cast<int>(kind);
+        const Window window{falloff, 1e4 / x};
+        const double nearer = window_at(window, 1e4 - size), farther = window_at(window, 1e4 + size);
+        EXPECT_NEAR(protocol::lux_at(windowed(light, falloff, 1e4 / x), p, away) / open, window_at(window, 1e4), nearer - farther + 1e-9)
+            << static_cast<int>(kind) << name_of(falloff);
       }
       const double edge = protocol::lux_at(windowed(light, falloff, 1e4 + 2 * size), p, away) / open;
-      EXPECT_LE(edge, 16 * size / 1e4);
+      EXPECT_LE(edge, window_at({falloff, 1e4 + 2 * size}, 1e4 - size));
       EXPECT_EQ(protocol::lux_at(windowed(light, falloff, 1e4 - 2 * size), p, away), 0) << static_cast<int>(kind);
     }
   }

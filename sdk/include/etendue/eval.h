@@ -119,11 +119,13 @@ Basis shading_basis(const ShadingPoint& point);
 
 // What multiplies a light by distance (light.h), with its range; the window of an area light is taken at the emitting point.
 struct Window {
-  Falloff falloff = Falloff::inverse_square;
+  Falloff falloff;
   double range_m = 0;  // 0: no range
 };
 double window_at(const Window& window, double distance_m);
-// Whether it is one: less than 1 somewhere.
+// The least of it between two distances.
+double least_window(const Window& window, double nearest_m, double furthest_m);
+// Whether it is one: another number than 1 somewhere.
 bool is_window(const Window& window);
 
 // Emission pattern over a planar emitter's own uv in [0,1]^2, or a mesh's texture coordinates; multiplies the radiance.

@@ -97,12 +97,35 @@ struct DaylightColour {
 // Chromaticity alone: scaled to Y = 1 when the light is resolved.
 using LightColour = std::variant<RgbColour, TemperatureColour, DaylightColour>;
 
-// Distance windows: what multiplies 1/d^2, and the radiance of area lights by the distance of each of their points.
-enum class Falloff {
-  inverse_square,  // none: the window is 1
-  frostbite,       // saturate(1 - (d/r)^4)^2                 (Lagarde and de Rousiers, eq 26)
-  gltf             // clamp(1 - (d/r)^4, 0, 1)                (KHR_lights_punctual)
+// What multiplies 1/d^2 with the distance d, and the radiance of area lights by the distance of each of their points: w of x = d / range, 0
+// from the range on. None of them sends more than the light without it but `scale_bias`.
+struct Falloff {
+  enum class Law {
+    inverse_square,  // 1
+    power,           // 1 - x^n              Lagarde and de Rousiers 2014, eq 22 (n = 1) and 23 (n = 20); KHR_lights_punctual (n = 4)
+    power_squared,   // (1 - x^n)^2          their eq 26, n = 4 in Frostbite
+    smoothstep,      // 1 - x^2 (3 - 2 x)    their figure 25, window 3
+    // (1/d^2 - t) / (1 - t), t = 1/range^2 with lengths in metres (their eq 24, 25): w = (1 - x^2) / (1 - t), 1 at 1 m, more than 1 before
+    // it. The range has to be above 1 m.
+    scale_bias,
+    // (1 - x^4)^2 / (d^2 + 1 m^2)           Karis 2013, eq 9, which Eden takes: w = (1 - x^4)^2 d^2 / (d^2 + 1 m^2). Without a range
+    // 1 / (d^2 + 1 m^2) alone.
+    karis
+  } law = Law::inverse_square;
+  double exponent = 4;  // n of both powers, 1 to 64
+
+  static constexpr double least_exponent = 1, most_exponent = 64;
+  static const Falloff inverse_square, linear, gltf, frostbite, smoothstep, scale_bias, karis;
+  bool operator==(const Falloff&) const = default;
 };
+inline constexpr Falloff Falloff::inverse_square{};
+inline constexpr Falloff Falloff::linear{Law::power, 1};  // Eden's
+inline constexpr Falloff Falloff::gltf{Law::power, 4};
+inline constexpr Falloff Falloff::frostbite{Law::power_squared, 4};
+inline constexpr Falloff Falloff::smoothstep{Law::smoothstep};
+inline constexpr Falloff Falloff::scale_bias{Law::scale_bias};
+inline constexpr Falloff Falloff::karis{Law::karis};
+const char* name_of(const Falloff& falloff);  // the rig file's "falloff"
 
 // How the flux of a spot becomes intensity (CLI.md, --spot-flux).
 enum class FluxConvention { falloff, cone, frostbite_pi, isotropic };
@@ -116,7 +139,7 @@ struct Light {
   bool two_sided = false;
   bool visible = true;  // the camera sees an area light, and it occludes
   std::optional<double> range_m;
-  Falloff falloff = Falloff::inverse_square;
+  Falloff falloff;
   FluxConvention flux_convention = FluxConvention::falloff;
   Transform transform;  // rigid
   // A mesh light that is also a surface (glTF's emissive materials): index into Scene::materials of what it reflects; none: black.

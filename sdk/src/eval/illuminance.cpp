@@ -2,7 +2,7 @@
 
 #include "line.h"
 #include "punctual.h"
-#include "window_loss.h"
+#include "window_part.h"
 
 #include <algorithm>
 #include <cmath>
@@ -181,12 +181,17 @@ std::optional<Rgb> closed_illuminance(const Emitter& emitter, const Vec3d& posit
   if (!has_closed_form(emitter)) return std::nullopt;
   const Rgb whole = std::visit(ClosedForm{emitter, position, frame, horizons}, emitter.shape);
   if (!is_window(emitter.window) || !has_extent(emitter) || whole == Rgb{}) return whole;
-  const std::optional<WindowLoss> loss = window_loss(emitter, frame, horizons);
-  if (!loss) return std::nullopt;
-  if (loss->all) return Rgb{};
+  const std::optional<WindowPart> part = window_part(emitter, frame, horizons);
+  if (!part) return std::nullopt;
+  if (part->nothing_left) return Rgb{};
   const auto* line = std::get_if<LineEmitter>(&emitter.shape);
-  const Rgb rest = whole - (line != nullptr ? line->intensity : emitter.radiance) * loss->value;
-  return Rgb{std::max(rest.x, 0.0), std::max(rest.y, 0.0), std::max(rest.z, 0.0)};
+  const Rgb& colour = line != nullptr ? line->intensity : emitter.radiance;  // channels out of gamut are negative
+  int channel = 0;
+  for (const int c : {1, 2})
+    if (std::abs(colour[c]) > std::abs(colour[channel])) channel = c;
+  const double open = whole[channel] / colour[channel], rest = part->of_left ? part->value : open - part->value;
+  // Rounding makes it no more than the window's largest value does.
+  return colour * std::clamp(rest, 0.0, open * std::max(window_at(emitter.window, 0), 1.0));
 }
 
 Rgb illuminance(const Emitter& emitter, const Vec3d& position, const Vec3d& normal) {

@@ -10,6 +10,8 @@
 // Seen along its axis a tube's side is shorter: q / r, q = sqrt((rho - R cos phi)^2 + R^2 sin^2 phi) <= rho + R, is one more factor. From
 // below, the integral over phi of (rho cos phi - R) where that is positive is 2 (sqrt(rho^2 - R^2) - R acos(R / rho)) >= 2 (rho - pi R /
 // 2): their difference falls with rho, to 0. A line has R = 0, and its intensity for 2 R l L.
+// A window w stands under the integral of each upper bound, and w / d^2 falls with d for all of them: its largest value is the nearest
+// point's. Of the lower bounds it is the least of w.
 #include "light_bound.h"
 
 #include "etendue/intensity_web.h"
@@ -36,6 +38,9 @@ Box both_of(const Around& a, const Around& b) {
   for (const Around& one : {a, b}) box.add(one.middle - one.half), box.add(one.middle + one.half);
   return box;
 }
+
+// No less than 1. Where one is more anywhere, it is so at the light.
+double highest_window(const Window& window) { return std::max(window_at(window, 0), 1.0); }
 
 const Around everywhere{{}, {1, 1, 1}};
 
@@ -158,11 +163,12 @@ Around Around::positions(const Box& box) {
 
 LightBound joined(const LightBound& a, const LightBound& b) {
   LightBound both;
+  const double of_a = highest_window(a.window), of_b = highest_window(b.window);
   both.places = Around::positions(both_of(a.places, b.places));
   both.normals = Around::directions(both_of(a.normals, b.normals));
-  both.around = a.around + b.around;
-  both.facing = a.facing + b.facing;
-  if (!(a.window.range_m > 0 || b.window.range_m > 0)) {
+  both.around = a.around * of_a + b.around * of_b;
+  both.facing = a.facing * of_a + b.facing * of_b;
+  if (!is_window(a.window) && !is_window(b.window)) {
     both.sure_around = a.sure_around + b.sure_around;
     both.sure_facing = a.sure_facing + b.sure_facing;
   }
@@ -179,7 +185,8 @@ std::optional<LightBound> light_bound(const Emitter& emitter) {
   if (!bound) return bound;
   if (is_window(emitter.window)) {
     bound->window = emitter.window;
-    bound->range_m = emitter.window.range_m;
+    if (emitter.window.range_m > 0) bound->range_m = emitter.window.range_m;
+    bound->most *= highest_window(emitter.window);
   }
   return bound;
 }
@@ -222,7 +229,7 @@ Bound bound_at(const LightBound& light, const Surroundings& points) {
   if (surface_low > 0) {
     const double furthest = std::sqrt(furthest2);
     bound.least = 0.999999 * (light.sure_around + (light.sure_facing * std::max(light_low, 0.0) + sure_across) / furthest) * surface_low /
-                  (furthest2 * furthest) * window_at(light.window, furthest);
+                  (furthest2 * furthest) * least_window(light.window, nearest, furthest);
   }
   return bound;
 }

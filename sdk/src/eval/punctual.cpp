@@ -8,16 +8,6 @@
 
 namespace etendue::eval {
 
-bool is_window(const Window& window) { return window.falloff != Falloff::inverse_square && window.range_m > 0; }
-
-// Lagarde and de Rousiers 2014, eq 26 with n = 4, and KHR_lights_punctual's form without the square.
-double window_at(const Window& window, double distance_m) {
-  if (!is_window(window)) return 1;
-  const double x = distance_m / window.range_m, x2 = x * x;
-  const double w = std::clamp(1 - x2 * x2, 0.0, 1.0);
-  return window.falloff == Falloff::frostbite ? w * w : w;
-}
-
 // Linear in the cosine between the cones, squared (Lagarde and de Rousiers 2014, listing 4; KHR_lights_punctual).
 double angular_falloff(const SpotShape& spot, const Vec3d& local) {
   const double cosine = -local.z, inner = std::cos(spot.inner_rad), outer = std::cos(spot.outer_rad);

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "eval/light_batch-inl.h"
+#include "simd-inl.h"
 
 #ifndef ETENDUE_PUNCTUAL_BATCH_SHARED
 #define ETENDUE_PUNCTUAL_BATCH_SHARED
@@ -19,6 +20,7 @@ struct PlacedPoint {
   Place position;
   Falloff falloff;
   double per_range2;  // 1 / range^2
+  double gain;        // of scale_bias
   const Emitter& white;
 };
 // 1 - cosine of both cones; `steep`: so close to each other that a float's rounding is seen between them.
@@ -43,12 +45,52 @@ namespace {
 template <class D>
 constexpr double unknown = in_floats<D> ? 1e-6 : 1e-14;
 
-// 1 where the window is none.
+// x^n of x^2, which is not negative.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V window(D d, const PlacedPoint& light, V distance2) {
-  const V x2 = hn::Mul(distance2, number(d, light.per_range2));
-  const V w = hn::Max(hn::NegMulAdd(x2, x2, number(d, 1)), hn::Zero(d));
-  return light.falloff == Falloff::frostbite ? hn::Mul(w, w) : w;
+HWY_INLINE V power(D d, V x2, double n) {
+  if (n == 4) return hn::Mul(x2, x2);
+  if (n == 1) return hn::Sqrt(x2);
+  if constexpr (in_floats<D>) {
+    return etendue::HWY_NAMESPACE::power_of(d, x2, 0.5 * n);
+  } else {
+    HWY_ALIGN std::array<double, hn::MaxLanes(d)> lanes;
+    hn::Store(x2, d, lanes.data());
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i) lanes[i] = std::pow(lanes[i], 0.5 * n);
+    return hn::Load(d, lanes.data());
+  }
+}
+
+// window_at(). Without a range per_range2 is 0. What rounding leaves unknown of x^n is n roundings of x.
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+HWY_INLINE V window(D d, const PlacedPoint& light, V distance2, M& doubtful) {
+  const V zero = hn::Zero(d), one = number(d, 1), x2 = hn::Mul(distance2, number(d, light.per_range2));
+  const auto left = [&](double n) {
+    const V taken = power(d, hn::Min(x2, one), n);
+    if (in_floats<D> && n > 6) doubtful = hn::Or(doubtful, hn::And(hn::Lt(x2, one), hn::Gt(taken, number(d, 6 / n))));
+    return hn::IfThenElseZero(hn::Lt(x2, one), hn::Sub(one, taken));
+  };
+  switch (light.falloff.law) {
+    case Falloff::Law::power:
+      return left(light.falloff.exponent);
+    case Falloff::Law::power_squared: {
+      const V w = left(light.falloff.exponent);
+      return hn::Mul(w, w);
+    }
+    case Falloff::Law::smoothstep: {
+      const V x = hn::Sqrt(hn::Min(x2, one)), rest = hn::Sub(one, x);
+      return hn::Mul(hn::Mul(rest, rest), hn::MulAdd(x, number(d, 2), one));
+    }
+    case Falloff::Law::scale_bias:
+      if (in_floats<D> && light.gain > 2) doubtful = hn::Or(doubtful, hn::Lt(x2, one));
+      return hn::Mul(hn::Max(hn::Sub(one, x2), zero), number(d, light.gain));
+    case Falloff::Law::karis: {
+      const V w = hn::Max(hn::NegMulAdd(x2, x2, one), zero);
+      return hn::Mul(hn::Mul(w, w), hn::Div(distance2, hn::Add(distance2, one)));
+    }
+    case Falloff::Law::inverse_square:
+      break;
+  }
+  return one;
 }
 
 // angular_falloff() in punctual.cpp, of 1 - cosine = sine^2 / (1 + cosine), which has all its digits in narrow cones too.
@@ -93,7 +135,7 @@ struct PointKernel {
     if constexpr (in_floats<D>) doubtful = hn::Or(hn::Lt(distance2, number(d, 1e-24)), hn::Gt(distance2, number(d, 1e24)));
     V value = hn::Mul(hn::Mul(hn::Max(dot(to_light, point.normal), zero), inverse), hn::Mul(inverse, inverse));
     value = hn::Mul(value, share(d, to_light, inverse, doubtful));
-    if (light.falloff != Falloff::inverse_square) value = hn::Mul(value, window(d, light, distance2));
+    if (light.falloff.law != Falloff::Law::inverse_square) value = hn::Mul(value, window(d, light, distance2, doubtful));
     const auto apart = hn::Gt(distance2, number(d, in_floats<D> ? 0 : 1e-280));
     return hn::IfThenElseZero(apart, hn::Min(value, number(d, static_cast<double>(hwy::HighestValue<float>()))));
   }
@@ -158,9 +200,9 @@ class PunctualBatch final : public LightBatch::Shape {
  public:
   explicit PunctualBatch(const Emitter& white) : white_(white), emitter_(std::get<PunctualEmitter>(white.shape)) {}
   std::size_t over(const PointBatch& points, std::span<float> values, float where_none) const override {
-    const double range = white_.window.range_m;
-    const PlacedPoint light{Place(emitter_.position - points.origin), range > 0 ? white_.window.falloff : Falloff::inverse_square,
-                            range > 0 ? std::min(1 / (range * range), 1e38) : 0, white_};
+    const double range = white_.window.range_m, per_range2 = range > 0 ? std::min(1 / (range * range), 1e38) : 0;
+    const PlacedPoint light{Place(emitter_.position - points.origin), is_window(white_.window) ? white_.window.falloff : Falloff{},
+                            per_range2, per_range2 < 1 ? 1 / (1 - per_range2) : 0, white_};
     if (const auto* spot = std::get_if<SpotShape>(&emitter_.shape))
       return HWY_DYNAMIC_DISPATCH(OverSpot)(light, placed(*spot, emitter_.frame), points, values, where_none);
     if (const auto* frustum = std::get_if<FrustumShape>(&emitter_.shape))

@@ -1,8 +1,9 @@
 // What a window takes from spheres, the caps and the sides of tubes: integrals over one variable, the other one in closed form.
-#include "window_loss.h"
+#include "window_part.h"
 
 #include "line_integral.h"
 #include "quadrature.h"
+#include "smooth_integral.h"
 
 #include <algorithm>
 #include <array>
@@ -35,14 +36,23 @@ class Bends {
   std::size_t count_ = 1;
 };
 
-// Without a peak. The rule's own difference is larger than its error.
+// What a window takes has no peak, what it leaves one where the light is nearest. The rule's own difference is larger than its error.
 template <class Function>
-double integral(double begin, double end, const Function& f) {
+double integral(const Taken&, double begin, double end, double, double, const Function& f) {
   const auto grey = [&](double x) {
     const double value = f(x);
     return Rgb{value, value, value};
   };
   return integrate_peaked(grey, begin, end, begin, end - begin, {1e-10, 1e-13}).value.x;
+}
+template <class Function>
+double integral(const Kept&, double begin, double end, double peak, double width, const Function& f) {
+  const auto grey = [&](double x) {
+    const double value = f(x);
+    return Rgb{value, value, value};
+  };
+  const double nearest = std::clamp(peak, begin, end);
+  return integrate_peaked(grey, begin, end, nearest, std::min(std::hypot(width, nearest - peak), end - begin), {1e-10, 0}).value.x;
 }
 
 // Half the angle of the part of a turn with  across cos(x) + along > 0,  across >= 0.
@@ -107,10 +117,9 @@ class Rings {
   double half_along_ = 0, half_across_ = 0, chi_ = 0;
 };
 
-}  // namespace
-
 // With e = e0 + (e1 - e0) sin^2(t / 2) the roots at the ends of each interval are smooth.
-double ball_loss(const Vec3d& centre, double radius, const Taken& taken, const std::optional<Vec3d>& outwards) {
+template <class Weight>
+double ball(const Vec3d& centre, double radius, const Weight& window, const std::optional<Vec3d>& outwards) {
   if (!(radius > 0) || !(centre.z + radius > 0)) return 0;
   const Rings rings(centre, radius, outwards);
   Bends bends(0, rings.last());
@@ -125,17 +134,16 @@ double ball_loss(const Vec3d& centre, double radius, const Taken& taken, const s
       for (const Vec3d& m : {p * k + q, p * k - q}) bends.add(length(centre + m * radius) - rings.nearest());
     }
   }
-  double loss = 0;
+  double sum = 0;
   bends.each([&](double from, double to) {
-    loss += integral(0, pi, [&](double t) {
+    const double width = 2 * std::sqrt((rings.nearest() + from) / (to - from));
+    sum += integral(window, 0, pi, 0, width, [&](double t) {
       const double s = std::sin(0.5 * t), e = from + (to - from) * s * s, d = rings.nearest() + e;
-      return 0.5 * (to - from) * std::sin(t) * rings(e) * taken.at(d * d);
+      return 0.5 * (to - from) * std::sin(t) * rings(e) * window.at(d * d);
     });
   });
-  return loss;
+  return sum;
 }
-
-namespace {
 
 // Integral of (p + q x) / (g^2 + x^2)^2 from x0 to x1. Its closed form cancels to (g / x)^3 where g is small against both; with x = 1 / u
 // the integrand is smooth there.
@@ -155,12 +163,9 @@ double inverse_fourth(double p, double q, double g2, double x0, double x1) {
   return sum;
 }
 
-// Along a line on the tube at g^2 across from the point, x0 <= x <= x1: the integral of (p + q x)+ (1 - w) / |y|^4. Within the range it is
+// Along a line on the tube at g^2 across from the point, x0 <= x <= x1: the integral of (p + q x) (1 - w) / |y|^4. Within the range it is
 // a polynomial of the degree 5.
 double along_side(double p, double q, double g2, double x0, double x1, const Taken& taken) {
-  if (q > 0) x0 = std::max(x0, -p / q);
-  if (q < 0) x1 = std::min(x1, -p / q);
-  if ((q == 0 && p <= 0) || !(x0 < x1)) return 0;
   if (g2 >= 1) return inverse_fourth(p, q, g2, x0, x1);
   const double reach = std::sqrt(1 - g2), from = std::clamp(-reach, x0, x1), to = std::clamp(reach, x0, x1);
   double sum = 0;
@@ -173,11 +178,29 @@ double along_side(double p, double q, double g2, double x0, double x1, const Tak
   return sum;
 }
 
-}  // namespace
+double along_side(double p, double q, double g2, double x0, double x1, const Kept& kept) {
+  if (!(g2 < kept.end())) return 0;
+  const double reach = kept.end() > 1 ? kept.end() : std::sqrt(1 - g2), from = std::clamp(-reach, x0, x1), to = std::clamp(reach, x0, x1);
+  if (!(from < to)) return 0;
+  double sum = 0;
+  smooth_integral(from, to, 0, std::sqrt(g2), kept.steepest(), [&](double x, double weight) {
+    const double d2 = g2 + x * x;
+    sum += weight * (p + q * x) * kept.at(d2) / (d2 * d2);
+  });
+  return sum;
+}
+// What is above the horizon: p + q x > 0.
+template <class Weight>
+double above_along_side(double p, double q, double g2, double x0, double x1, const Weight& window) {
+  if (q > 0) x0 = std::max(x0, -p / q);
+  if (q < 0) x1 = std::min(x1, -p / q);
+  return (q == 0 && p <= 0) || !(x0 < x1) ? 0 : along_side(p, q, g2, x0, x1, window);
+}
 
 // y = D e + R m + x axis with the outward normal m = -e cos(phi) + f sin(phi), f = axis x e: the side is seen where -m.y = D cos(phi) - R
 // is positive.
-double tube_side_loss(const Vec3d& a, const Vec3d& b, double radius, const Taken& taken) {
+template <class Weight>
+double tube_side(const Vec3d& a, const Vec3d& b, double radius, const Weight& window) {
   const Vec3d span = b - a;
   const double l = length(span);
   if (!(radius > 0) || !(l > 0) || std::max(a.z, b.z) + radius <= 0) return 0;
@@ -204,11 +227,23 @@ double tube_side_loss(const Vec3d& a, const Vec3d& b, double radius, const Taken
   const auto row = [&](double phi) {
     const double c = std::cos(phi), s = std::sin(phi), sine = std::sin(0.5 * phi);
     const double g2 = (across - radius) * (across - radius) + 2 * twice * sine * sine;
-    return (across * c - radius) * along_side((across - radius * c) * e.z + radius * s * f.z, axis.z, g2, x0, x1, taken);
+    return (across * c - radius) * above_along_side((across - radius * c) * e.z + radius * s * f.z, axis.z, g2, x0, x1, window);
   };
-  double loss = 0;
-  bends.each([&](double from, double to) { loss += integral(from, to, row); });
-  return radius * loss;
+  const double width = (across - radius) / std::sqrt(twice);
+  double sum = 0;
+  bends.each([&](double from, double to) { sum += integral(window, from, to, 0, width, row); });
+  return radius * sum;
 }
+
+}  // namespace
+
+double ball_part(const Vec3d& centre, double radius, const Taken& taken, const std::optional<Vec3d>& outwards) {
+  return ball(centre, radius, taken, outwards);
+}
+double ball_part(const Vec3d& centre, double radius, const Kept& kept, const std::optional<Vec3d>& outwards) {
+  return ball(centre, radius, kept, outwards);
+}
+double tube_side_part(const Vec3d& a, const Vec3d& b, double radius, const Taken& taken) { return tube_side(a, b, radius, taken); }
+double tube_side_part(const Vec3d& a, const Vec3d& b, double radius, const Kept& kept) { return tube_side(a, b, radius, kept); }
 
 }  // namespace etendue::eval
