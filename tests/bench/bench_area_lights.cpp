@@ -104,6 +104,10 @@ struct Case {
       add(p, n);
     }
   }
+  void end(const Window& window) {
+    light.window = window;
+    prepared = *LightBatch::of(light);
+  }
   void add(const Vec3d& p, const Vec3d& n) {
     px.push_back(static_cast<float>(p.x)), py.push_back(static_cast<float>(p.y)), pz.push_back(static_cast<float>(p.z));
     nx.push_back(static_cast<float>(n.x)), ny.push_back(static_cast<float>(n.y)), nz.push_back(static_cast<float>(n.z));
@@ -157,6 +161,17 @@ int main(int argc, char** argv) {
       add_rows(table, fmt::format("{}, {}", name_of(kind), mixed ? "half of them cut by the horizon" : "above the horizon"), *cases.back());
     }
   }
+  // Wholly within the range, cut by it and beyond.
+  for (const Kind kind : {Kind::rect, Kind::sphere, Kind::disk, Kind::capsule}) {
+    for (const Falloff& falloff : {Falloff::gltf, Falloff::frostbite, Falloff::linear, Falloff::karis}) {
+      for (const double range : {30.0, 3.0}) {
+        cases.push_back(std::make_unique<Case>(kind, true));
+        cases.back()->end({falloff, range});
+        add_rows(table, fmt::format("{}, half of them cut by the horizon, {} to {} m", name_of(kind), etendue::name_of(falloff), range),
+                 *cases.back());
+      }
+    }
+  }
   const Rgb one{1, 1, 1};
   const std::vector<std::pair<const char*, EmitterShape>> others{{"mesh of 120 triangles", dome()},
                                                                  {"line", LineEmitter{{-0.5, 0, 0}, {0.5, 0, 0}, one}},
@@ -166,6 +181,12 @@ int main(int argc, char** argv) {
   for (const auto& [name, shape] : others) {
     cases.push_back(std::make_unique<Case>(shape));
     add_rows(table, name, *cases.back());
+  }
+  for (const Falloff& falloff :
+       {Falloff::gltf, Falloff::frostbite, Falloff{Falloff::Law::power, 20}, Falloff::smoothstep, Falloff::karis}) {
+    cases.push_back(std::make_unique<Case>(PunctualEmitter{{}, {}, one, PointShape{}}));
+    cases.back()->end({falloff, 5});
+    add_rows(table, fmt::format("point light, {} to 5 m", etendue::name_of(falloff)), *cases.back());
   }
   return table.run(argc, argv);
 }

@@ -9,6 +9,7 @@
 
 #include "batch_error.h"
 #include "light_batch.h"
+#include "window_part.h"
 
 namespace etendue::eval {
 namespace {
@@ -38,7 +39,9 @@ class OneByOne final : public LightBatch::Shape {
 std::shared_ptr<const LightBatch::Shape> batch_of(const Emitter& white) {
   if (std::holds_alternative<PunctualEmitter>(white.shape)) return punctual_batch(white);
   if (std::holds_alternative<DistantEmitter>(white.shape)) return distant_batch(white);
-  if (is_window(white.window)) return nullptr;
+  if (is_window(white.window)) {
+    return Taken::suits(white.window) && std::holds_alternative<PolygonEmitter>(white.shape) ? polygon_batch(white) : nullptr;
+  }
   if (std::holds_alternative<SphereEmitter>(white.shape)) return sphere_batch(white);
   if (std::holds_alternative<PolygonEmitter>(white.shape)) {
     if (auto rect = rect_batch(white)) return rect;

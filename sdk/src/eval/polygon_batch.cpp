@@ -5,11 +5,16 @@
 #define HWY_TARGET_INCLUDE "eval/polygon_batch.cpp"  // this file: compiled again for each instruction set
 #include <hwy/foreach_target.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "eval/edge_batch-inl.h"
 #include "eval/light_batch-inl.h"
+#include "eval/quadrature.h"
+#include "eval/sector_rule.h"
 
 #ifndef ETENDUE_POLYGON_BATCH_SHARED
 #define ETENDUE_POLYGON_BATCH_SHARED
@@ -35,10 +40,17 @@ struct Outline {
   double scale = 1;       // units a metre
   bool convex = true;
 };
+// 1 - w = x^4 (1 - x^4 / 2) 2 or x^4 of x = d / range, `range` in units of the batch.
+struct PolynomialWindow {
+  bool squared;
+  double range, per_fourth;  // of the range
+  double farthest;           // corner from the middle
+};
 struct PlacedPolygon {
   const Outline& outline;
   Place middle;
   const Emitter& white;
+  std::optional<PolynomialWindow> window = {};
 };
 
 }  // namespace etendue::eval
@@ -55,8 +67,45 @@ struct Spot {
   V rest;  // (a^2 - r^2) / r^2
 };
 
+// What a window takes over h r^-4 of an outline wholly within the range: the integral of n.y (1, or 2 - (d/r)^4) over it, a polynomial of
+// the degree 1 or 5 in the plane, as a fan from the middle: with dA = t (s x ds) dt Gauss's three nodes for the weight t and Gauss and
+// Legendre's three along an edge are exact.
+struct NoLoss {
+  template <class D, class V, class Sum>
+  HWY_INLINE void add(D, const Sum&, V, V, V, V, V) {}
+};
+template <class V>
+struct WindowLoss {
+  const PolynomialWindow& window;
+  V taken;  // so far
+  template <class D, class Sum>
+  HWY_INLINE void add(D d, const Sum& sum, V from_x, V from_y, V dx, V dy, V turn) {
+    const V up = hn::MulAdd(sum.normal.x, sum.middle.x, hn::MulAdd(sum.normal.y, sum.middle.y, hn::Mul(sum.normal.z, sum.middle.z)));
+    if (!window.squared) {
+      const V third = number(d, 1.0 / 3), mean_x = hn::Mul(hn::MulAdd(from_x, number(d, 2), dx), third),
+              mean_y = hn::Mul(hn::MulAdd(from_y, number(d, 2), dy), third);
+      const V height = hn::MulAdd(sum.normal.x, mean_x, hn::MulAdd(sum.normal.y, mean_y, up));
+      taken = hn::MulAdd(hn::Mul(turn, number(d, 0.5)), height, taken);
+      return;
+    }
+    const V z2 = hn::Mul(sum.middle.z, sum.middle.z), per_fourth = number(d, window.per_fourth);
+    V all = hn::Zero(d);
+    for (const GaussNode& along : gauss3) {
+      const V share = number(d, 0.5 + 0.5 * along.x), x = hn::MulAdd(dx, share, from_x), y = hn::MulAdd(dy, share, from_y);
+      const V rise = hn::MulAdd(sum.normal.x, x, hn::Mul(sum.normal.y, y));
+      for (const SectorNode& across : nodes_across(3)) {
+        const V t = number(d, across.x), at_x = hn::MulAdd(x, t, sum.middle.x), at_y = hn::MulAdd(y, t, sum.middle.y);
+        const V d2 = hn::MulAdd(at_x, at_x, hn::MulAdd(at_y, at_y, z2)), fourth = hn::Mul(hn::Mul(d2, d2), per_fourth);
+        const V weight = number(d, 0.5 * along.weight * across.weight);
+        all = hn::MulAdd(hn::Mul(weight, hn::MulAdd(rise, t, up)), hn::Sub(number(d, 2), fourth), all);
+      }
+    }
+    taken = hn::MulAdd(turn, all, taken);
+  }
+};
+
 // Lambert's sum over edges, each without its part of the area's; see edge_batch-inl.h.
-template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+template <class Loss, class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 struct PolygonSum {
   D d;
   Vector<V> middle, normal;  // in the polygon's frame, relative to the point
@@ -64,6 +113,7 @@ struct PolygonSum {
   V sum, closest, least, twice_area;
   bool convex;
   M unsure;  // which way half a turn goes
+  Loss loss;
 
   // An edge, or a part of the horizon that closes a gap. rests: the sum of both.
   template <bool Horizon = false>
@@ -102,13 +152,15 @@ struct PolygonSum {
     }
     sum = hn::Add(sum, hn::IfThenElseZero(counted, part));
     least = hn::Min(least, hn::IfThenElseZero(counted, lower));
-    twice_area = hn::Add(twice_area, hn::IfThenElseZero(counted, hn::MulSub(from.x, dy, hn::Mul(from.y, dx))));
+    const V turn = hn::IfThenElseZero(counted, hn::MulSub(from.x, dy, hn::Mul(from.y, dx)));
+    twice_area = hn::Add(twice_area, turn);
+    loss.add(d, *this, from.x, from.y, dx, dy, turn);
   }
 };
 
 // The edges are cut at the horizon as they come: where the outline goes below, the horizon closes it from there to where it comes up again.
-template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
-HWY_INLINE V over_polygon(D d, const PlacedPolygon& light, const Point<V>& point, M& doubtful) {
+template <class Loss, class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+HWY_INLINE V over_polygon(D d, const PlacedPolygon& light, const Point<V>& point, M& doubtful, const Loss& loss) {
   const V zero = hn::Zero(d);
   const Outline& outline = light.outline;
   const Vector<V> to_middle = towards(d, light.middle, point.position);
@@ -128,7 +180,7 @@ HWY_INLINE V over_polygon(D d, const PlacedPolygon& light, const Point<V>& point
   };
   const auto up_of = [&](const Spot<V>& s) ETENDUE_INLINE_LAMBDA { return hn::Add(middle_up, hn::MulAdd(s.x, n.x, hn::Mul(s.y, n.y))); };
   const M none = hn::FirstN(d, 0), all = hn::Not(none);
-  PolygonSum<D> sum{d, middle, n, reach2, r2, per_r2, zero, zero, zero, zero, outline.convex, none};
+  PolygonSum<Loss, D> sum{d, middle, n, reach2, r2, per_r2, zero, zero, zero, zero, outline.convex, none, loss};
   const Spot<V> first = corner(0);
   const V first_up = up_of(first);
   Spot<V> a = first, gone = first, risen = first;
@@ -176,17 +228,40 @@ HWY_INLINE V over_polygon(D d, const PlacedPolygon& light, const Point<V>& point
   const V area = number(d, outline.area), longer = number(d, outline.longer);
   const Cancellation<V> terms{value, n.z, middle.z, r2, per_r2, area, longer, sum.closest, sum.least};
   doubtful = hn::Or(hn::And(side.unsure, above), hn::And(lit, hn::Or(sum.unsure, cancels(d, terms))));
-  return hn::IfThenElseZero(lit, hn::Max(hn::IfThenElse(side.front, value, hn::Neg(value)), zero));
+  const V open = hn::IfThenElseZero(lit, hn::Max(hn::IfThenElse(side.front, value, hn::Neg(value)), zero));
+  if constexpr (std::is_same_v<Loss, NoLoss>) {
+    return open;
+  } else {
+    // Of a light that the range cuts there is no such polynomial: those are left to the definition. Where little is left floats have lost
+    // its digits.
+    const PolynomialWindow& window = *light.window;
+    const auto square = [](double x) { return std::min(x * x, 1e37); };
+    const V distance2 = dot(to_middle, to_middle),
+            rest = hn::NegMulAdd(hn::Mul(hn::Abs(middle.z), number(d, window.per_fourth)), sum.loss.taken, open);
+    const M beyond = hn::Gt(distance2, number(d, square((window.range + window.farthest) * (1 + 1e-5))));
+    const M within = hn::Lt(distance2, number(d, square(std::max(window.range - window.farthest, 0.0) * (1 - 1e-5))));
+    const M unclear = in_floats<D> ? hn::Or(hn::Not(within), hn::Lt(rest, hn::Mul(open, number(d, 0.5)))) : hn::Not(within);
+    doubtful = hn::AndNot(beyond, hn::Or(doubtful, hn::And(hn::Gt(open, zero), unclear)));
+    return hn::IfThenElseZero(within, hn::Min(hn::Max(rest, zero), open));
+  }
 }
 
 struct PolygonKernel {
   const PlacedPolygon& light;
   template <class D, class V, class M>
   HWY_INLINE V operator()(D d, const Point<V>& point, M& doubtful) const {
-    return over_polygon(d, light, point, doubtful);
+    return over_polygon(d, light, point, doubtful, NoLoss{});
+  }
+};
+struct WindowedKernel {
+  const PlacedPolygon& light;
+  template <class D, class V, class M>
+  HWY_INLINE V operator()(D d, const Point<V>& point, M& doubtful) const {
+    return over_polygon(d, light, point, doubtful, WindowLoss<V>{*light.window, hn::Zero(d)});
   }
 };
 std::size_t OverPolygon(const PlacedPolygon& light, const PointBatch& points, std::span<float> sr, float where_none) {
+  if (light.window) return at_every_point(light.white, light.outline.scale, points, sr, where_none, WindowedKernel{light});
   return at_every_point(light.white, light.outline.scale, points, sr, where_none, PolygonKernel{light});
 }
 
@@ -249,15 +324,20 @@ Outline outline_of(const PolygonEmitter& polygon) {
 
 class PolygonBatch final : public LightBatch::Shape {
  public:
-  explicit PolygonBatch(const Emitter& white) : white_(white), outline_(outline_of(std::get<PolygonEmitter>(white.shape))) {}
+  explicit PolygonBatch(const Emitter& white) : white_(white), outline_(outline_of(std::get<PolygonEmitter>(white.shape))) {
+    if (!is_window(white.window)) return;
+    const double range = white.window.range_m * outline_.scale, per_range = 1 / range;
+    window_ = {white.window.falloff == Falloff::frostbite, range, std::min(std::pow(per_range, 4), 1e37), 0.5 * outline_.longer.whole};
+  }
   std::size_t over(const PointBatch& points, std::span<float> sr, float where_none) const override {
     const Place middle((outline_.first - points.origin + outline_.middle) * outline_.scale);
-    return HWY_DYNAMIC_DISPATCH(OverPolygon)({outline_, middle, white_}, points, sr, where_none);
+    return HWY_DYNAMIC_DISPATCH(OverPolygon)({outline_, middle, white_, window_}, points, sr, where_none);
   }
 
  private:
   Emitter white_;
   Outline outline_;
+  std::optional<PolynomialWindow> window_;
 };
 
 }  // namespace
