@@ -98,6 +98,10 @@ class FlatRest {
     const Vec3d along = moved / length_of;
     const double begin = dot(off, along), aside2 = std::max(dot(off, off) - begin * begin, 0.0), turn = range_.turn(off, along);
     const double out = cross(along, range_.towards()).z, near = std::sqrt(h2_ + aside2);
+    if (kept_.linear()) {
+      linear_side(begin, begin + length_of, turn, near, out);
+      return;
+    }
     smooth_integral(begin, begin + length_of, 0, near, kept_.steepest(), [&](double s, double weight) {
       const double rho2 = aside2 + s * s;
       around_ += weight * turn * kept_.spread(h2_, rho2);
@@ -127,6 +131,19 @@ class FlatRest {
   void rim_beyond(const Arc&) {}
 
  private:
+  // w = 1 - d: with p the foot's distance from the side's line and c^2 = h^2 + p^2
+  //     integral of p P / rho^2 ds = p / (2 h^2 c) atan(s / c) - (atan(s / p) - atan(h s / (p d))) / h,
+  //     integral of (1 / q - 1) / 2 - (1 / d - 1) ds = atan(s / c) / (2 c) - asinh(s / c) + s / 2.
+  void linear_side(double s0, double s1, double p, double c, double out) {
+    const double h = range_.height(), turned = std::atan2(c * (s1 - s0), c * c + s0 * s1) / (2 * c);
+    const auto from_foot = [&](double s) {
+      const double rho2 = p * p + s * s, d = std::sqrt(h2_ + rho2);
+      return std::atan2(s * p * rho2 / (d + h), p * p * d + s * s * h);
+    };
+    around_ += p / h2_ * turned - (from_foot(s1) - from_foot(s0)) / h;
+    across_ -= out * (turned - (std::asinh(s1 / c) - std::asinh(s0 / c)) + 0.5 * (s1 - s0));
+  }
+
   FlatRange range_;
   const Kept& kept_;
   double h2_;

@@ -48,6 +48,7 @@ class Kept {
   double beyond(double q) const;
   // No power of d in w is higher.
   double steepest() const;
+  bool linear() const { return falloff_ == Falloff::linear; }
 
  private:
   Falloff falloff_;
