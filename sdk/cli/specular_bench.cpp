@@ -147,6 +147,7 @@ Result<MethodTable> run_specular_bench(const SpecularBench& bench, const std::fu
   std::vector<std::vector<double>> rates(sets);
   const std::vector<OneByOne> doubles = one_by_one();
   std::vector<MethodRow> in_double;
+  in_double.reserve(doubles.size());
   for (const OneByOne& m : doubles) in_double.push_back({m.name, m.note, m.is_ours, true, {}, {}});
   std::vector<InVectorsRow> vectors;
   for (const bool above : {true, false}) {
