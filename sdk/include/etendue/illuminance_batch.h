@@ -32,8 +32,8 @@ class LightBatch {
   // point lights, spots, frusta, lines and distant lights with
   //     |error| <= 1e-5 value + 2e-6 (what the axial intensity gives a facing surface from the closest point, no window),
   // of doubles where those of floats would not hold it. The solid angle of a mesh is that of all its triangles that face the point. All
-  // else is evaluated one by one: profiles, and area lights and lines with a window. What is too large
-  // for a float becomes the largest. Points with a number that is not finite become `where_none`, and are counted. Errors:
+  // else is evaluated one by one: profiles, lines with a window, area lights with one but frostbite's and glTF's on flat lights. Too large
+  // for a float: becomes the largest. Points with a number that is not finite become `where_none`, and are counted. Errors:
   // BATCH_SIZES_DIFFER.
   BatchOutcome projected_solid_angles(const PointBatch& points, std::span<float> values, float where_none) const;
   // cd/m2, cd or lx: what the light emits.

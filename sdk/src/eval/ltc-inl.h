@@ -72,7 +72,7 @@ HWY_INLINE Cosines transformed_cosine(const Lanes* t, Lanes alpha, const ViewFra
           hn::Mul(alpha, hn::MulAdd(view.sine, t[3], hn::Mul(view.cosine, t[4])))};
 }
 
-// Lambert's sum, twice, without its sign.
+// Lambert's sum, twice.
 template <std::size_t N>
 HWY_INLINE Lanes lambert_sum(const Outline<N>& s) {
   Lanes sum = number(0);
@@ -81,7 +81,7 @@ HWY_INLINE Lanes lambert_sum(const Outline<N>& s) {
     const Lanes turn = hn::MulSub(s.from[i].x, step.y, hn::Mul(s.from[i].y, step.x));
     sum = hn::Add(sum, hn::IfThenElseZero(s.seen[i], hn::MulAdd(turn, over_sine_less_one(s.from[i], step), turn)));
   });
-  return hn::Abs(sum);
+  return positive(sum);
 }
 // The share of the cosine above the horizon that the light covers.
 template <std::size_t N>

@@ -141,8 +141,7 @@ HWY_INLINE Shares shares_of(const MomentSums& sums, Lanes alpha, const ViewFrame
   add(hn::Add(x, near_x), hn::Sub(y, near_y));
   // 2 / 4 of the nodes, and the area is half of its sum.
   const Lanes twice = hn::Add(sums.flat, sums.rest);
-  const Lanes area =
-      hn::IfThenElseZero(hn::Gt(hn::Mul(twice, sums.flat), zero), hn::Mul(hn::Abs(twice), number(static_cast<float>(0.25 / pi))));
+  const Lanes area = hn::IfThenElseZero(hn::Gt(sums.flat, zero), hn::Mul(positive(twice), number(static_cast<float>(0.25 / pi))));
   const Lanes most = hn::Mul(area, hn::Add(of_f0, of_f90));
   const Lanes kept = hn::Mul(area, hn::Min(one, inverse(d, hn::Max(most, number(1e-30f)))));
   return {hn::Mul(of_f0, kept), hn::Mul(of_f90, kept)};

@@ -29,7 +29,7 @@ HWY_BEFORE_NAMESPACE();
 namespace etendue::eval::HWY_NAMESPACE {
 namespace {
 
-// of(sides): the shares of the light's outline above the horizon as unit vectors in the view's frame, counter-clockwise from its front.
+// of(frame, alpha, outline): the shares of the light's outline above the horizon, unit vectors in the view's frame.
 template <class Of>
 class RectLobe {
  public:
@@ -41,12 +41,16 @@ class RectLobe {
     std::array<Vector3, 4> corners{};
     each<4>([&](auto i) ETENDUE_INLINE_LAMBDA { corners[i] = towards(d, light_.corners[i], position); });
     const Lanes height = dot(corners[0], numbers(d, light_.normal));  // below 0 in front
+    const Lit front = hn::Lt(height, zero), back = hn::Gt(height, zero);
+    if (light_.white.two_sided) {
+      // The back is gone around the other way.
+      const Vector3 second = corners[1];
+      corners[1] = chosen(back, corners[3], second), corners[3] = chosen(back, second, corners[3]);
+    }
     each<4>([&](auto i) ETENDUE_INLINE_LAMBDA { corners[i] = unit(frame(corners[i])); });
     const Outline<4> whole = outline_of(corners);
     const Shares shares = hn::AllTrue(d, all_above(whole)) ? of_(frame, alpha, whole) : of_(frame, alpha, clipped(whole));
-    // Their sum is turned where the back is seen.
-    const Lit front = hn::Lt(height, zero);
-    const Lit lit = hn::And(hn::Gt(frame.cosine, zero), light_.white.two_sided ? hn::Not(hn::Eq(height, zero)) : front);
+    const Lit lit = hn::And(hn::Gt(frame.cosine, zero), light_.white.two_sided ? hn::Or(front, back) : front);
     const Vector3 across = corners[2] - corners[0], along = corners[3] - corners[1];
     const Lanes size2 = hn::Min(dot(across, across), dot(along, along));
     doubtful = hn::And(lit, hn::Lt(size2, number(least_angle * least_angle)));
