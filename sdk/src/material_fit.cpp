@@ -182,14 +182,6 @@ double reach(const MetalProfile& profile, double from, double end, double limit)
   return m;
 }
 
-double held(double x) { return std::isnan(x) ? 0 : std::clamp(x, -65504.0, 65504.0); }
-
-std::array<Channel, 3> channels_of(const ColourPair& pair) {
-  std::array<Channel, 3> out;
-  for (int c = 0; c < 3; ++c) out[static_cast<std::size_t>(c)] = {held(pair.diffuse[c]), held(pair.f0[c])};
-  return out;
-}
-
 DisneyColours colours_of(const std::array<Channel, 3>& channels, double m, double k) {
   DisneyColours out;
   for (int c = 0; c < 3; ++c) out.base_colour[c] = MetalProfile::base(channels[static_cast<std::size_t>(c)], m, k);
@@ -214,12 +206,13 @@ ColourPair colour_pair_of(const DisneyColours& c) {
 double squared_difference(const DisneyColours& colours, const ColourPair& pair) {
   const ColourPair got = colour_pair_of(colours);
   double sum = 0;
-  for (int c = 0; c < 3; ++c) sum += square(got.diffuse[c] - held(pair.diffuse[c])) + square(got.f0[c] - held(pair.f0[c]));
+  for (int c = 0; c < 3; ++c)
+    sum += square(got.diffuse[c] - MetalProfile::held(pair.diffuse[c])) + square(got.f0[c] - MetalProfile::held(pair.f0[c]));
   return sum;
 }
 
 DisneyFit fit_disney(const ColourPair& pair, DielectricF0 dielectric, double tolerance) {
-  const std::array<Channel, 3> channels = channels_of(pair);
+  const std::array<Channel, 3> channels = MetalProfile::channels_of(pair);
   const MetalProfile profile(ordered(channels), dielectric);
   const MetalProfile::Point best = global_optimum(profile);
   const double limit = std::sqrt(best.residual / 6) + tolerance;
@@ -227,7 +220,7 @@ DisneyFit fit_disney(const ColourPair& pair, DielectricF0 dielectric, double tol
 }
 
 DisneyColours fit_disney_at(double metal, const ColourPair& pair, DielectricF0 dielectric) {
-  const std::array<Channel, 3> channels = channels_of(pair);
+  const std::array<Channel, 3> channels = MetalProfile::channels_of(pair);
   const MetalProfile profile(ordered(channels), dielectric);
   const MetalProfile::Point best = profile(std::isnan(metal) ? 0 : std::clamp(metal, 0.0, 1.0));
   return colours_of(channels, best.m, best.k);

@@ -20,6 +20,13 @@ class MetalProfile {
     double m = 0, k = 0, residual = 0;
   };
 
+  static double held(double x) { return std::isnan(x) ? 0 : std::clamp(x, -65504.0, 65504.0); }
+  static std::array<Channel, 3> channels_of(const ColourPair& pair) {
+    std::array<Channel, 3> out;
+    for (int c = 0; c < 3; ++c) out[static_cast<std::size_t>(c)] = {held(pair.diffuse[c]), held(pair.f0[c])};
+    return out;
+  }
+
   MetalProfile(const std::array<Channel, 3>& channels, DielectricF0 dielectric)
       : channels_(channels),
         lowest_(dielectric == DielectricF0::core ? largest_dielectric_f0 / 4 : 0),

@@ -1,26 +1,17 @@
 // Disney parameters of two colours: the global optimum.
 #include "etendue/material_fit.h"
 
+#include "draws.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 
 namespace etendue {
 namespace {
-
-class Draws {
- public:
-  explicit Draws(unsigned seed) : generator_(seed) {}
-  double within(double low, double high) { return std::uniform_real_distribution<double>(low, high)(generator_); }
-  Rgb rgb(double low, double high) { return {within(low, high), within(low, high), within(low, high)}; }
-
- private:
-  std::mt19937_64 generator_;
-};
 
 double rms(double residual) { return std::sqrt(residual / 6); }
 
