@@ -378,6 +378,35 @@ TEST(Reference, KeepsItsBoundWhereTheLobeBends) {
   }
 }
 
+// Views along the surface, of lobes as narrow as they get: ridges that are alpha n.v wide. Most views look towards the light, half of the
+// lights are cut by the horizon that the ridge stands on; what is told is held to an answer that is a thousand times closer.
+class GrazingRidge : public testing::TestWithParam<Kind> {};
+TEST_P(GrazingRidge, KeepsItsBound) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Random random(seed * 100 + static_cast<std::uint64_t>(GetParam()));
+    for (int i = 0; i < 80; ++i) {
+      const Placement p = place(GetParam(), random, i % 2 == 0);
+      const double highest = i % 4 < 2 ? 2e-3 : 1, alpha = random.log_uniform(1e-4, highest), cosine = random.log_uniform(1e-4, highest);
+      const double sine = std::sqrt(1 - cosine * cosine);
+      const Vec3d towards = sample_light(p.emitter, p.position, random.square()).direction;
+      const Vec3d ahead = i % 5 == 0 ? basis_around(p.normal).tangent : normalised(towards - p.normal * dot(towards, p.normal));
+      const GgxLobe lobe{alpha, {0.04, 1, 0}, 1, i % 3 == 0 ? Masking::separable : Masking::correlated};
+      const ShadingPoint point{p.position, p.normal, p.normal, p.normal * cosine - ahead * sine, lobe};
+      const double floor = 1e-3 * illuminance(p.emitter, p.position, p.normal).x;
+      const Estimate tight = reference(p.emitter, point, {1e-8, 1e-8 * floor});
+      for (const double tolerance : {1e-2, 1e-3, 1e-5}) {
+        const Estimate loose = reference(p.emitter, point, {tolerance, tolerance * floor});
+        for (int c = 0; c < 3; ++c) {
+          EXPECT_LE(loose.error[c], tolerance * std::max(loose.value[c], floor) * (1 + 1e-9)) << i;
+          EXPECT_LE(std::abs(loose.value[c] - tight.value[c]), loose.error[c] + tight.error[c])
+              << seed << " " << i << " asked " << tolerance << " alpha " << alpha << " n.v " << cosine << " channel " << c;
+        }
+      }
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Shapes, GrazingRidge, testing::Values(Kind::rect, Kind::sphere, Kind::disk, Kind::capsule));
+
 // A disk that touches the surface's horizon from below, at the middle of its rim's own parameter, is below it.
 TEST(Reference, LightThatTouchesTheHorizonFromBelow) {
   const Emitter light = white(DiskEmitter{{1, 0, 0.5}, {0, 0, -1}, {1, 0, 0}, 1});

@@ -60,7 +60,8 @@ void add_pieces(std::vector<FanArc>& pieces, const Fan& fan, const Arc& arc, dou
   const Nearest nearest = nearest_to(arc, fan.centre);
   const double scale = std::max(nearest.distance, lobe) / std::max(nearest.speed, 1e-300);
   const std::vector<double> ridges = ridge_places(fan, arc);
-  // Each place on the ridge owns the part of the arc up to halfway (in w) to the closest approach or to the next place.
+  // Each place on the ridge owns the part of the arc up to halfway (in w) to the closest approach or to the next place. One that is nearer
+  // to the closest approach than that is wide stands for it too: on neither side is a ridge, however narrow, left to its coarser cells.
   const auto halfway = [&](double s, double t) {
     const double w = 0.5 * (std::asinh((s - nearest.s) / scale) + std::asinh((t - nearest.s) / scale));
     return nearest.s + scale * std::sinh(w);
@@ -68,7 +69,9 @@ void add_pieces(std::vector<FanArc>& pieces, const Fan& fan, const Arc& arc, dou
   double begin = arc.begin;
   for (std::size_t k = 0; k < ridges.size(); ++k) {
     const double at = ridges[k];
-    double lo = at > nearest.s ? halfway(nearest.s, at) : arc.begin, hi = at < nearest.s ? halfway(at, nearest.s) : arc.end;
+    const bool apart = std::abs(at - nearest.s) > scale;
+    double lo = apart && at > nearest.s ? halfway(nearest.s, at) : arc.begin,
+           hi = apart && at < nearest.s ? halfway(at, nearest.s) : arc.end;
     if (k > 0) lo = std::max(lo, halfway(ridges[k - 1], at));
     if (k + 1 < ridges.size()) hi = std::min(hi, halfway(at, ridges[k + 1]));
     const double turn = std::max(fan.ridge, off_ridge(fan, arc.at(at)));
@@ -186,8 +189,8 @@ FanArc::Row FanArc::row(double w) const {
 }
 
 FanRule fan_rule_for(double relative) {
-  if (relative >= 2e-4) return {&kronrod5(), 3, 1.7, 3.2, 4};
-  if (relative >= 1e-7) return {&kronrod7(), 3, 1.7, 3.2, 16};
+  if (relative >= 2e-4) return {&kronrod5(), 3, 1.7, 3.2, 8};
+  if (relative >= 1e-7) return {&kronrod7(), 3, 1.7, 3.2, 32};
   return {&kronrod15(), 4, 3.2, 5, 400};
 }
 

@@ -25,11 +25,11 @@ namespace etendue::eval {
 struct Fan {
   Contour contour;
   Vec3d centre;
-  double lobe = 1;             // half angle of the lobe in the plane of incidence, as tan(angle / 2)
+  double lobe = 1;             // half angle of the lobe where it is widest (the plane of incidence), as tan(angle / 2)
   double lobe_across = 1;      // across that plane
-  Vec3d in_plane;              // unit, across the centre: the direction of the plane of incidence there
+  Vec3d in_plane;              // unit, across the centre: the direction of that plane there
   double ridge = 1;            // the lobe is a ridge along that plane, this wide in azimuth; 1: it is none
-  double layer = 0;            // the integrand bends within this height above the horizon (masking: alpha); 0: nowhere
+  double layer = 0;            // the integrand bends within this height above the horizon (masking: alpha or n.v); 0: nowhere
   int adjacent[2] = {-1, -1};  // arcs through the centre that are great circles: they enclose nothing with it
   std::size_t index = 0;       // of the outline (each_outline)
 };

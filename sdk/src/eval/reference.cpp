@@ -6,6 +6,7 @@
 #include "kernels.h"
 #include "line.h"
 #include "line_integral.h"
+#include "lobe_slopes.h"
 #include "modulation.h"
 #include "punctual.h"
 #include "round_light.h"
@@ -61,34 +62,39 @@ void centre_anywhere(Fan& fan) {
   fan.in_plane = basis_around(fan.centre).tangent;
 }
 
-// With a lobe the fan stands where the lobe is highest: at the mirror direction, or at the closest point of the outline.
-// Half an angle x in the plane of incidence moves the half vector by x, across it by x / n.v: the lobe's width is alpha and alpha n.v.
+// With a lobe the fan stands where the lobe is highest: at the mirror direction, or at the place of the outline whose half vector is
+// nearest to the normal. Half vectors h = v + c have the slopes s = (h.x, h.y) / h.z, over which the lobe falls with hypot(alpha, |s|) as
+// its scale; the singular values of ds / dc make that two widths of directions: at the mirror direction alpha in the plane of incidence
+// and alpha n.v across it, as half angles.
 void centre_at_lobe(Fan& fan, const Vec3d& view, double alpha) {
   const Vec3d mirror{-view.x, -view.y, view.z};
-  double away = 0;
   fan.centre = mirror;
   if (!encloses(fan.contour, mirror)) {
-    Nearest best{0, 4, 1};
-    const Arc* closest = nullptr;
+    double least = std::numeric_limits<double>::max();
     for (const Arc& arc : fan.contour) {
-      const Nearest nearest = nearest_to(arc, mirror);
-      if (nearest.distance < best.distance) best = nearest, closest = &arc;
+      const double s = nearest_to_lobe(view, alpha, arc);
+      const double away2 = squared(half_slopes(view, alpha, arc, s).q);
+      if (away2 < least) least = away2, fan.centre = normalised(arc.at(s));
     }
-    if (closest != nullptr) {
-      fan.centre = normalised(closest->at(best.s));
-      away = 0.5 * best.distance;
-      mark_adjacent(fan);
-    }
+    mark_adjacent(fan);
   }
-  const double across = alpha * std::max(view.z, 1e-6);
-  fan.lobe = std::clamp(std::hypot(alpha, away), 1e-9, 1.0);
-  fan.lobe_across = std::clamp(std::hypot(across, away), 1e-9, 1.0);
-  // The direction of the plane of incidence at the centre: upwards along the meridian through the normal.
   const Vec3d& c = fan.centre;
-  const Vec3d meridian = Vec3d{0, 0, 1} - c * c.z;
-  fan.in_plane = dot(meridian, meridian) > 1e-20 ? normalised(meridian) : basis_around(c).tangent;
-  if (view.z < 0.4 && away < alpha) fan.ridge = view.z;
-  if (alpha < 0.5) fan.layer = alpha;
+  const Vec3d h = view + c;
+  const double z = std::max(h.z, 1e-9);
+  const Vec2d slopes{h.x / z, h.y / z};
+  const Basis basis = basis_around(c);
+  const auto moved = [&](const Vec3d& t) { return Vec2d{(t.x - slopes.x * t.z) / z, (t.y - slopes.y * t.z) / z}; };
+  const Vec2d a = moved(basis.tangent), b = moved(basis.bitangent);
+  // Along the direction at this angle from the tangent slopes move the most.
+  const double angle = 0.5 * std::atan2(2 * (a.x * b.x + a.y * b.y), squared(a) - squared(b)), cs = std::cos(angle), sn = std::sin(angle);
+  const double most = std::sqrt(squared({a.x * cs + b.x * sn, a.y * cs + b.y * sn}));
+  const double little = std::sqrt(squared({b.x * cs - a.x * sn, b.y * cs - a.y * sn}));
+  const double scale = 0.5 * std::hypot(alpha, std::sqrt(squared(slopes)));
+  fan.lobe = std::clamp(scale / little, 1e-9, 1.0);
+  fan.lobe_across = std::clamp(scale / most, 1e-9, 1.0);
+  fan.in_plane = basis.bitangent * cs - basis.tangent * sn;
+  if (fan.lobe_across < 0.4 * fan.lobe) fan.ridge = fan.lobe_across / fan.lobe;
+  if (const double layer = std::min(alpha, view.z); layer < 0.5) fan.layer = layer;
 }
 
 struct Scaled {

@@ -3,6 +3,7 @@
 
 #include "fresnel.h"
 #include "lobe_cells.h"
+#include "lobe_slopes.h"
 #include "local.h"
 #include "specular_view.h"
 
@@ -19,55 +20,10 @@ constexpr std::size_t most_cells = 20000;
 constexpr double neglected = 0.25;
 constexpr double most_cancelled = 10;  // times the light
 
-double squared(const Vec2d& q) { return q.x * q.x + q.y * q.y; }
 double angle_between(const Vec2d& a, const Vec2d& b) { return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y); }
 Vec2d stereographic(const Vec2d& q) {
   const double per = 1 / (1 + std::sqrt(1 + squared(q)));
   return {q.x * per, q.y * per};
-}
-
-// q along an arc, and its derivative to the arc's parameter.
-struct Slopes {
-  Vec2d q, speed;
-};
-Slopes slopes_at(const DiskLobe& lobe, const Arc& arc, double s) {
-  const double cs = std::cos(s), sn = std::sin(s);
-  Vec3d l = arc.centre + arc.u * cs + arc.v * sn, speed = arc.v * cs - arc.u * sn;
-  if (!arc.unit) {
-    const double inverse = 1 / length(l);
-    l = l * inverse;
-    speed = (speed - l * dot(l, speed)) * inverse;
-  }
-  const Vec3d h = lobe.view + l;
-  const double over = 1 / (lobe.alpha * h.z);
-  const Vec2d q{h.x * over, h.y * over};
-  return {q, {(speed.x - lobe.alpha * q.x * speed.z) * over, (speed.y - lobe.alpha * q.y * speed.z) * over}};
-}
-
-// Where an arc comes nearest to the middle of the lobe: the best of a few places (at grazing views the lobe is a ridge along the plane of
-// incidence), then steps of Gauss and Newton, which take an outline that is straight in q there in one.
-double nearest_to_lobe(const DiskLobe& lobe, const Arc& arc) {
-  constexpr int most_steps = 8;
-  constexpr double near_enough = 1e-4;  // squared, of the way over which the lobe falls
-  double best = 0.5 * (arc.begin + arc.end);
-  Slopes at = slopes_at(lobe, arc, best);
-  const auto try_at = [&](double s) {
-    const Slopes other = slopes_at(lobe, arc, s);
-    if (squared(other.q) < squared(at.q)) best = s, at = other;
-  };
-  try_at(arc.begin), try_at(arc.end);
-  const Crossings in_plane = crossings(arc, normalised(Vec3d{-lobe.view.y, lobe.view.x, 1e-30}));
-  for (std::size_t i = 0; i < in_plane.count; ++i) try_at(in_plane.s[i]);
-  if (arc.unit) try_at(nearest_to(arc, {-lobe.view.x, -lobe.view.y, lobe.view.z}).s);
-  for (int step = 0; step < most_steps; ++step) {
-    const double speed2 = squared(at.speed), before = squared(at.q);
-    if (!(speed2 > 0)) break;
-    const double to = std::clamp(best - (at.q.x * at.speed.x + at.q.y * at.speed.y) / speed2, arc.begin, arc.end);
-    if ((to - best) * (to - best) * speed2 < near_enough * (1 + before)) break;
-    try_at(to);
-    if (!(squared(at.q) < before)) break;
-  }
-  return best;
 }
 
 // In the middle; where one end is much nearer to the rim than the other in the mean of the distances' orders.
@@ -105,10 +61,11 @@ class Adaptive {
         Arc part = arc;
         part.begin = arc.begin + i * span;
         part.end = i + 1 == parts ? arc.end : part.begin + span;
-        const double s0 = nearest_to_lobe(lobe_, part);
-        const Slopes at = slopes_at(lobe_, part, s0);
+        const double s0 = nearest_to_lobe(lobe_.view, lobe_.alpha, part);
+        const HalfSlopes at = half_slopes(lobe_.view, lobe_.alpha, part, s0);
         arcs_.push_back(lobe_arc(part, s0, at));
-        const Vec2d from = slopes_at(lobe_, part, part.begin).q, to = slopes_at(lobe_, part, part.end).q;
+        const Vec2d from = half_slopes(lobe_.view, lobe_.alpha, part, part.begin).q,
+                    to = half_slopes(lobe_.view, lobe_.alpha, part, part.end).q;
         turned += angle_between(from, at.q) + angle_between(at.q, to);
         if (squared(at.q) < squared(nearest)) nearest = at.q;
         for (const Vec2d& q : {at.q, from, to}) places.push_back(stereographic(q));
@@ -171,7 +128,7 @@ class Adaptive {
     return 4 * std::max(1.0, reflectance(std::sqrt(0.5 * (1 - sine))) / reflectance(lobe_.view.z));
   }
 
-  LobeArc lobe_arc(const Arc& part, double s0, const Slopes& at) const {
+  LobeArc lobe_arc(const Arc& part, double s0, const HalfSlopes& at) const {
     const double cs = std::cos(s0), sn = std::sin(s0);
     LobeArc arc{part.centre, part.u * cs + part.v * sn, part.v * cs - part.u * sn, part.unit};
     // d q / d tau is twice d q / d s there.
