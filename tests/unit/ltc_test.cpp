@@ -108,7 +108,7 @@ TEST(LtcTable, AlbedosAreTheLobes) {
 // Cosines drawn out to slivers would cost the closed forms their digits.
 TEST(LtcTable, NoCosineIsASliver) {
   for (const LtcTable::Node& node : ltc_table().nodes()) {
-    for (const std::size_t first : {std::size_t{0}, std::size_t{7}}) {
+    for (const std::size_t first : {std::size_t{0}, LtcTable::steep, LtcTable::grazing}) {
       for (std::size_t k = first; k < first + 5; ++k) EXPECT_LT(std::abs(node[k]), 20);
       EXPECT_GT(node[first + 2], 3e-4);
     }
@@ -146,6 +146,31 @@ TEST(Ltc, AWhiteSkyGivesTheAlbedo) {
       EXPECT_NEAR(through("ltc-two-lobes", sky, surface(alpha, view_of(cosine), 0.04)), 3 * (0.04 * lobe.albedo + 0.96 * lobe.f90_albedo),
                   1e-9);
     }
+  }
+}
+
+// Half the light crosses the horizon, half the views have the mirror direction inside the light; all errors over all light. On a thousand
+// lights it is .015, `ltc` .018 at f0 = 1 and .093 at .04.
+TEST(Ltc, TwoLobesFollowRoundLights) {
+  Random random(17);
+  for (const Kind kind : {Kind::sphere, Kind::disk}) {
+    std::array<double, 2> errors{}, sums{};
+    for (int i = 0; i < 400; ++i) {
+      const Placement p = place(kind, random, i % 2 == 0);
+      const LightSample s = sample_light(p.emitter, p.position, random.square());
+      Vec3d view = i % 4 < 2 ? p.normal * (2 * dot(p.normal, s.direction)) - s.direction : random.direction();
+      if (dot(view, p.normal) < 0) view = -view;
+      if (dot(view, p.normal) < 0.05) continue;
+      const double alpha = random.log_uniform(0.01, 1);
+      for (const std::size_t dielectric : {std::size_t{0}, std::size_t{1}}) {
+        const double f0 = dielectric != 0 ? 0.04 : 1;
+        const ShadingPoint point{p.position, p.normal, p.normal, view, GgxLobe{alpha, {f0, f0, f0}}};
+        const double exact = reference(p.emitter, point, {1e-4, 1e-8}).value.x;
+        errors[dielectric] += std::abs(through("ltc-two-lobes", p.emitter, point) - exact), sums[dielectric] += exact;
+      }
+    }
+    EXPECT_LT(errors[0], 0.02 * sums[0]);
+    EXPECT_LT(errors[1], 0.02 * sums[1]);
   }
 }
 

@@ -29,7 +29,8 @@ TransformedCosine transformed_cosine(const std::array<double, 5>& terms, double 
 // Stand-ins for one view and one alpha, in sum over the directions above the horizon: albedo and f90_albedo.
 struct LtcLobe {
   TransformedCosine whole;    // of a lobe that mirrors all
-  TransformedCosine grazing;  // of the lobe times Schlick's weight (1 - v.h)^5
+  TransformedCosine steep;    // of the lobe times 1 - w, w Schlick's weight (1 - v.h)^5
+  TransformedCosine grazing;  // of the lobe times w
   double albedo = 0, f90_albedo = 0;
 };
 
@@ -39,8 +40,10 @@ class LtcTable {
  public:
   // 5 terms of the inverse matrix for directions in the frame whose z is the mirror direction and whose y is across the plane of incidence,
   // which stay smooth and finite there as alpha goes to 0: (0, 0) and (0, 2) times alpha, 1 / (1, 1) over alpha, (2, 0), (2, 2). Then
-  // the directional albedo's parts: f0 * [5] + f90 * [6]. Then 5 terms for the lobe times Schlick's weight.
-  using Node = std::array<float, 12>;
+  // the directional albedo's parts: f0 * [5] + f90 * [6]. Then 5 terms for each part of the lobe that Schlick's weight makes: steep,
+  // grazing.
+  static constexpr std::size_t terms = 17, albedo = 5, steep = 7, grazing = 12;
+  using Node = std::array<float, terms>;
   static constexpr double lowest_alpha = 1e-4, lowest_cosine = 1e-4;
 
   // size * size nodes, those of one alpha side by side.
@@ -61,7 +64,7 @@ class LtcTable {
 const LtcTable& ltc_table();
 
 // Height-correlated GGX fitted anew: every node's matrix makes chi^2 = integral of (p - q)^2 / (p + q) over the directions above the
-// horizon smallest, p the lobe and q the cosine, both as densities there. `progress`, after each row: false ends the work.
+// horizon smallest, p the lobe or a part of it and q the cosine, both as densities there. `progress`, after each row: false ends the work.
 std::optional<LtcTable> fit_ltc(std::uint32_t size, const std::function<bool(double share_done)>& progress = {});
 // How much of the lobe is in other directions than it should be: half the integral of |p - q|. No light's share of the lobe is further off.
 double misplaced_share(const TransformedCosine& whole, double alpha, double view_cosine);

@@ -6,18 +6,19 @@
 #define ETENDUE_LTC_INL_H
 #endif
 
+#include "etendue/ltc.h"
 #include "eval/specular_batch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etendue::eval::HWY_NAMESPACE {
 
-// The first 4 `groups` numbers of LtcTable::Node between nodes. A lane's numbers lie side by side in the table: they are read and mixed
+// 4 `groups` numbers of LtcTable::Node from one on, between nodes. A lane's numbers lie side by side in the table: they are read and mixed
 // four at a time, and then turned to vectors of one number each.
 template <std::size_t groups>
-HWY_INLINE std::array<Lanes, 4 * groups> between_nodes(const LtcNodes& nodes, Lanes alpha, Lanes cosine) {
+HWY_INLINE std::array<Lanes, 4 * groups> between_nodes(const LtcNodes& nodes, std::size_t first, Lanes alpha, Lanes cosine) {
   const Floats d;
   const hn::RebindToSigned<Floats> integers;
-  constexpr std::size_t most = hn::MaxLanes(Floats()), node = 12;
+  constexpr std::size_t most = hn::MaxLanes(Floats()), node = LtcTable::terms;
   const std::size_t row = node * nodes.size;
   const Lanes last = hn::Set(d, static_cast<float>(nodes.size - 1)), least = hn::Set(d, static_cast<float>(nodes.size - 2));
   const Lanes x = hn::Mul(hn::Min(positive(cosine), number(1)), last), y = hn::Mul(hn::Sqrt(alpha), last);
@@ -29,7 +30,7 @@ HWY_INLINE std::array<Lanes, 4 * groups> between_nodes(const LtcNodes& nodes, La
   hn::Store(hn::Sub(y, j), d, v.data());
   std::array<Lanes, 4 * groups> terms{};
 #if HWY_TARGET == HWY_SCALAR
-  const float* from = nodes.first + at[0];
+  const float* from = nodes.first + first + at[0];
   const auto mix = [](float a, float b, float share) { return a + (b - a) * share; };
   each<4 * groups>([&](auto k) ETENDUE_INLINE_LAMBDA {
     terms[k] = number(mix(mix(from[k], from[node + k], u[0]), mix(from[row + k], from[row + node + k], u[0]), v[0]));
@@ -39,7 +40,7 @@ HWY_INLINE std::array<Lanes, 4 * groups> between_nodes(const LtcNodes& nodes, La
   using Four = hn::Vec<decltype(four)>;
   HWY_ALIGN std::array<std::array<float, 4 * most>, groups> mixed;
   for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-    const float* from = nodes.first + at[lane];
+    const float* from = nodes.first + first + at[lane];
     const Four across = hn::Set(four, u[lane]), up = hn::Set(four, v[lane]);
     each<groups>([&](auto g) ETENDUE_INLINE_LAMBDA {
       const Four a = hn::LoadU(four, from + 4 * g), b = hn::LoadU(four, from + node + 4 * g);
@@ -93,20 +94,19 @@ HWY_INLINE Lanes covered(const Cosines& cosines, const Outline<N>& light) {
   return hn::Min(hn::Mul(sum, over), number(1));
 }
 
-// `ltc` and, with another cosine for the lobe times Schlick's weight, `ltc-two-lobes`.
+// `ltc` and, with a cosine each for both parts that Schlick's weight makes of the lobe, `ltc-two-lobes`.
 template <bool two_lobes>
 struct ThroughTable {
   LtcNodes nodes;
   template <std::size_t N>
   HWY_INLINE Shares operator()(const ViewFrame& view, Lanes alpha, const Outline<N>& light) const {
-    const auto terms = between_nodes < two_lobes ? 3 : 2 > (nodes, alpha, view.cosine);
-    const Lanes whole = covered(transformed_cosine(terms.data(), alpha, view), light);
-    if constexpr (two_lobes) {
-      const Lanes of_f90 = hn::Mul(terms[6], covered(transformed_cosine(terms.data() + 7, alpha, view), light));
-      return {hn::MulSub(hn::Add(terms[5], terms[6]), whole, of_f90), of_f90};
-    } else {
-      return {hn::Mul(terms[5], whole), hn::Mul(terms[6], whole)};
-    }
+    constexpr std::size_t f0 = LtcTable::albedo;
+    constexpr std::size_t first = two_lobes ? f0 : 0;
+    const auto terms = between_nodes < two_lobes ? 3 : 2 > (nodes, first, alpha, view.cosine);
+    const auto share = [&](std::size_t from)
+                           ETENDUE_INLINE_LAMBDA { return covered(transformed_cosine(terms.data() + (from - first), alpha, view), light); };
+    const Lanes of_f0 = share(two_lobes ? LtcTable::steep : 0), of_f90 = two_lobes ? share(LtcTable::grazing) : of_f0;
+    return {hn::Mul(terms[f0 - first], of_f0), hn::Mul(terms[f0 + 1 - first], of_f90)};
   }
 };
 

@@ -47,7 +47,7 @@ LtcLobe LtcTable::at(double alpha, double cosine) const {
   const auto cosine_from = [&](std::size_t k) {
     return transformed_cosine({term(k), term(k + 1), term(k + 2), term(k + 3), term(k + 4)}, a, std::clamp(cosine, 0.0, 1.0));
   };
-  return {cosine_from(0), cosine_from(7), term(5) + term(6), term(6)};
+  return {cosine_from(0), cosine_from(steep), cosine_from(grazing), term(albedo) + term(albedo + 1), term(albedo + 1)};
 }
 
 const LtcTable& ltc_table() {
@@ -117,11 +117,11 @@ std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& poi
     const double covered = Covered{emitter, point, frame, cosine, !published}() / pi;
     return published ? covered : std::min(covered / cosine.share_above(), 1.0);
   };
-  // f0 + (f90 - f0) w: the first term has the whole lobe, the second the lobe times w.
-  const Rgb rise = Rgb{1, 1, 1} * lobe->f90 - lobe->f0;
-  const double whole = share(fit.whole);
-  const double grazing = form == Form::two_cosines && rise != Rgb{} ? share(fit.grazing) : whole;
-  return luminance_of(emitter) * (lobe->f0 * (fit.albedo * whole) + rise * (fit.f90_albedo * grazing));
+  // f0 (1 - w) + f90 w.
+  const double steep = share(form == Form::two_cosines ? fit.steep : fit.whole);
+  const double grazing = form == Form::two_cosines && lobe->f90 != 0 ? share(fit.grazing) : steep;
+  return luminance_of(emitter) *
+         (lobe->f0 * ((fit.albedo - fit.f90_albedo) * steep) + Rgb{1, 1, 1} * (lobe->f90 * fit.f90_albedo * grazing));
 }
 template <Form form>
 std::optional<Rgb> luminance(const Emitter& emitter, const ShadingPoint& point) {
@@ -142,7 +142,7 @@ constexpr SpecularMethod methods[] = {
     {"ltc", article, "The light is cut at the surface's horizon first, and the cosine is one for what is above it.",
      luminance<Form::one_cosine>},
     {"ltc-two-lobes", article,
-     "The same, and a cosine of its own for the part of the lobe that Fresnel's term adds towards grazing: two forms instead of one.",
+     "The same, with one cosine for the part of the lobe that Fresnel's term weighs with f0 and one for that with f90.",
      luminance<Form::two_cosines>},
 };
 

@@ -140,37 +140,51 @@ class Fit {
   double albedo_;
 };
 
-// What Schlick's weight leaves of the lobe.
-std::vector<Direction> weighted(std::vector<Direction> all) {
+// The parts of the lobe that Fresnel's term weighs with f0 and with f90.
+std::vector<Direction> steep_part(std::vector<Direction> all) {
+  for (Direction& d : all) d.lobe *= 1 - d.fresnel_weight;
+  return all;
+}
+std::vector<Direction> grazing_part(std::vector<Direction> all) {
   for (Direction& d : all) d.lobe *= d.fresnel_weight;
   return all;
 }
 
 struct NodeFit {
-  Parameters whole, fresnel;
+  Parameters whole, steep, grazing;
 };
-NodeFit improved(const Fit& whole, const Fit& fresnel, std::span<const NodeFit> starts) {
+NodeFit improved(double alpha, double cosine, std::span<const NodeFit> starts) {
+  const std::vector<Direction> all = directions(alpha, cosine, 2);
   NodeFit best;
-  double least_whole = HUGE_VAL, least_fresnel = HUGE_VAL;
-  for (NodeFit start : starts) {
-    if (const double error = whole.improve(start.whole); error < least_whole) least_whole = error, best.whole = start.whole;
-    if (const double error = fresnel.improve(start.fresnel); error < least_fresnel) least_fresnel = error, best.fresnel = start.fresnel;
-  }
+  const auto improve = [&](const std::vector<Direction>& lobe, Parameters NodeFit::*part) {
+    const Fit fit(alpha, cosine, lobe);
+    double least = HUGE_VAL;
+    for (const NodeFit& start : starts) {
+      Parameters p = start.*part;
+      if (const double error = fit.improve(p); error < least) least = error, best.*part = p;
+    }
+  };
+  improve(all, &NodeFit::whole);
+  improve(steep_part(all), &NodeFit::steep);
+  improve(grazing_part(all), &NodeFit::grazing);
   return best;
 }
 
 LtcTable::Node node_of(const NodeFit& fit, double alpha, double cosine) {
   LtcTable::Node node;
   const auto store = [](double x) { return static_cast<float>(x); };
-  const std::array<double, 5> whole = terms_of(fit.whole, alpha), fresnel = terms_of(fit.fresnel, alpha);
-  std::transform(whole.begin(), whole.end(), node.begin(), store);
-  std::transform(fresnel.begin(), fresnel.end(), node.begin() + 7, store);
+  const auto store_terms = [&](const Parameters& p, std::size_t first) {
+    const std::array<double, 5> terms = terms_of(p, alpha);
+    std::transform(terms.begin(), terms.end(), node.begin() + static_cast<std::ptrdiff_t>(first), store);
+  };
   const std::vector<Direction> all = directions(alpha, cosine, 4);
-  const double f90 = albedo(weighted(all));
-  // What is left where Fresnel's term hardly rises lies along the horizon, and its fit is a sliver: there it goes with the whole lobe,
-  // which at f0 = .04 is at most .6 % of the light.
-  if (f90 < 2.5e-4 * albedo(all)) std::copy_n(node.begin(), 5, node.begin() + 7);
-  node[5] = store(albedo(all) - f90), node[6] = store(f90);
+  const double all_of = albedo(all), f90 = albedo(grazing_part(all));
+  store_terms(fit.whole, 0);
+  // A part that has hardly anything of the lobe lies along its rim, and its fit is a sliver: there it goes with the other part. At grazing
+  // views on smooth surfaces that is at most 3 % of the light, seen steeply at most .6 % at f0 = .04.
+  store_terms(all_of - f90 < 0.03 * all_of ? fit.grazing : fit.steep, LtcTable::steep);
+  store_terms(f90 < 2.5e-4 * all_of ? fit.steep : fit.grazing, LtcTable::grazing);
+  node[LtcTable::albedo] = store(all_of - f90), node[LtcTable::albedo + 1] = store(f90);
   return node;
 }
 
@@ -187,12 +201,9 @@ std::optional<LtcTable> fit_ltc(std::uint32_t size, const std::function<bool(dou
     NodeFit neighbour;
     for (std::uint32_t column = size; column-- > 0;) {
       const double cosine = axes.cosine_of(column);
-      const std::vector<Direction> all = directions(alpha, cosine, 2);
-      NodeFit narrow;
-      narrow.whole.log_t += std::log(std::max(cosine, alpha));
-      narrow.fresnel = narrow.whole;
-      neighbour = improved(Fit(alpha, cosine, all), Fit(alpha, cosine, weighted(all)),
-                           std::array<NodeFit, 3>{narrow, neighbour, row_below[column]});
+      Parameters narrow;
+      narrow.log_t += std::log(std::max(cosine, alpha));
+      neighbour = improved(alpha, cosine, std::array<NodeFit, 3>{NodeFit{narrow, narrow, narrow}, neighbour, row_below[column]});
       row_below[column] = neighbour;
       nodes[static_cast<std::size_t>(row) * size + column] = node_of(neighbour, alpha, cosine);
     }

@@ -62,7 +62,7 @@ SchlickShares in_double(SpecularRule rule, const Emitter& white, const SpecularP
 }
 
 LtcNodes ltc_nodes() {
-  static_assert(sizeof(LtcTable::Node) == 12 * sizeof(float));
+  static_assert(sizeof(LtcTable::Node) == LtcTable::terms * sizeof(float));
   const LtcTable& table = ltc_table();
   return {table.nodes().data()->data(), table.size()};
 }

@@ -29,7 +29,7 @@ std::shared_ptr<const SpecularBatch::Light> specular_sphere(SpecularRule rule, c
 // The method in double at one point of a batch.
 SchlickShares in_double(SpecularRule rule, const Emitter& white, const SpecularPoints& points, std::size_t index);
 
-// The nodes of ltc_table(), 12 numbers each.
+// The nodes of ltc_table(), LtcTable::terms numbers each.
 struct LtcNodes {
   const float* first;
   std::size_t size;  // along each side
