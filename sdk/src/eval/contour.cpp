@@ -182,7 +182,9 @@ Vec3d rim_integral(const Arc& arc) {
   };
   const double s0 = arc.begin - phase, s1 = arc.end - phase;
   const double big_j = 2 / w * (angle_of(s1) - angle_of(s0));
-  const double logs = std::log((m + rho * std::cos(s1)) / (m + rho * std::cos(s0)));
+  // Rounding must not leave what the rim's distances can be.
+  const auto distance2 = [&](double s) { return std::clamp(m + rho * std::cos(s), near2, far2); };
+  const double logs = std::log(distance2(s1) / distance2(s0));
   return (q * ((s1 - s0) / rho) + (p - q * (m / rho)) * big_j - r * (logs / rho)) * 0.5;
 }
 
