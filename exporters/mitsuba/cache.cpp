@@ -1,6 +1,7 @@
 #include "cache.h"
 
 #include "digest.h"
+#include "driver.h"
 #include "etendue/io.h"
 
 #include <pugixml.hpp>
@@ -45,8 +46,10 @@ Result<std::string> content_of(const std::filesystem::path& scene, Digests& know
 }
 
 std::string key_of(const Mitsuba& mitsuba, const MitsubaJob& job, const std::string& content) {
+  static const std::string driver = digest_of(driver_script());
   std::ostringstream text;
-  text << content << ' ' << job.samples << ' ' << job.seeds << ' ' << job.first_seed << ' ' << mitsuba.variant << ' ' << mitsuba.version;
+  text << driver << ' ' << content << ' ' << job.samples << ' ' << job.seeds << ' ' << job.first_seed << ' ' << mitsuba.variant << ' '
+       << mitsuba.version;
   return digest_of(text.str());
 }
 

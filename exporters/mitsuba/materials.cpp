@@ -57,6 +57,35 @@ Status add_principled(Writer& writer, pugi::xml_node bsdf, const Material& mater
   return Done{};
 }
 
+// surface_bsdfs.py says what the parameters of the three mean.
+Status add_standard(Writer& writer, pugi::xml_node bsdf, const Material& material, const Standard& model) {
+  if (Status s = add_base_colour(writer, bsdf, "base_colour", material, model.base_colour); !s) return s;
+  if (Status s = add_scalar(writer, bsdf, "metal", material, 2, model.metal); !s) return s;
+  if (Status s = add_scalar(writer, bsdf, "roughness", material, 1, model.roughness); !s) return s;
+  add_float(bsdf, "reflectance", model.reflectance);
+  return Done{};
+}
+
+Status add_metal_rough(Writer& writer, pugi::xml_node bsdf, const Material& material, const MetalRough& model) {
+  if (Status s = add_base_colour(writer, bsdf, "base_colour", material, model.base_colour); !s) return s;
+  if (Status s = add_scalar(writer, bsdf, "metallic", material, 2, model.metallic); !s) return s;
+  if (Status s = add_scalar(writer, bsdf, "roughness", material, 1, model.roughness); !s) return s;
+  add_float(bsdf, "ior", model.ior);
+  return Done{};
+}
+
+Status add_specular_glossiness(Writer& writer, pugi::xml_node bsdf, const Material& material, const SpecularGlossiness& model) {
+  if (Status s = add_base_colour(writer, bsdf, "diffuse", material, model.diffuse); !s) return s;
+  if (!material.specular_gloss_texture) {
+    add_rgb(bsdf, "specular", clamped(writer, material, model.specular));
+    add_float(bsdf, "glossiness", model.glossiness);
+    return Done{};
+  }
+  const Texture& texture = *material.specular_gloss_texture;
+  if (Status s = add_colour_texture(writer, bsdf, "specular", texture, model.specular, name_for_losses(material)); !s) return s;
+  return add_grey_texture(writer, bsdf, "glossiness", texture, 3, model.glossiness, name_for_losses(material));
+}
+
 void add_conductor(Writer& writer, pugi::xml_node bsdf, const Material& material, const Conductor& model) {
   add_rgb(bsdf, "eta", model.eta);
   add_rgb(bsdf, "k", model.k);
@@ -84,6 +113,15 @@ Status add_model(Writer& writer, pugi::xml_node parent, const Material& material
   if (const auto* principled = std::get_if<Principled>(&material.model)) {
     return add_principled(writer, add_plugin(parent, "bsdf", "principled"), material, *principled);
   }
+  if (const auto* standard = std::get_if<Standard>(&material.model)) {
+    return add_standard(writer, add_plugin(parent, "bsdf", "etendue_standard"), material, *standard);
+  }
+  if (const auto* metal_rough = std::get_if<MetalRough>(&material.model)) {
+    return add_metal_rough(writer, add_plugin(parent, "bsdf", "etendue_metal_rough"), material, *metal_rough);
+  }
+  if (const auto* specular = std::get_if<SpecularGlossiness>(&material.model)) {
+    return add_specular_glossiness(writer, add_plugin(parent, "bsdf", "etendue_specular_glossiness"), material, *specular);
+  }
   if (const auto* conductor = std::get_if<Conductor>(&material.model)) {
     add_conductor(writer, add_plugin(parent, "bsdf", "roughconductor"), material, *conductor);
     return Done{};
@@ -91,7 +129,8 @@ Status add_model(Writer& writer, pugi::xml_node parent, const Material& material
   return unsupported("material '" + material.name + "' has no twin in Mitsuba", material.source);
 }
 
-void report_model(Writer& writer, const Material& material) {
+// What the built-ins make of a model that plugins show as it is.
+void report_twin(Writer& writer, const Material& material) {
   if (std::holds_alternative<Standard>(material.model)) {
     writer.losses.add(
         name_for_losses(material) + ": Frostbite's standard model",
@@ -108,6 +147,10 @@ void report_model(Writer& writer, const Material& material) {
             : "the nearest `principled`: coloured reflections of dielectrics turn grey or metallic";
     writer.losses.add(name_for_losses(material) + ": glTF's specular-glossiness model", effect);
   }
+}
+
+void report_model(Writer& writer, const Material& material) {
+  if (writer.parts == MitsubaParts::built_in) report_twin(writer, material);
   for (const Unshown& unshown : unshown_of(material)) writer.losses.add(name_for_losses(material) + ": " + unshown.what, unshown.effect);
 }
 
@@ -125,10 +168,10 @@ Status add_shaded(Writer& writer, pugi::xml_node parent, const Material& materia
 
 // mask(twosided(normalmap(model))), each only where it is needed. The outermost element carries the id.
 Status add_material(Writer& writer, const Material& authored, const std::string& id) {
-  const Material material = mitsuba_twin(authored);
+  const Material material = mitsuba_twin(authored, writer.parts);
   pugi::xml_node inner = writer.root;
   const std::size_t before = static_cast<std::size_t>(std::distance(inner.begin(), inner.end()));
-  if (has_holes(material)) {
+  if (has_holes(material, writer.parts)) {
     inner = add_plugin(inner, "bsdf", "mask");
     if (Status s = add_cutout_texture(writer, inner, "opacity", *material.base_colour_texture, material.base_alpha, *material.alpha_cutoff,
                                       name_for_losses(material));
@@ -150,12 +193,14 @@ std::string material_id(const Scene& scene, std::uint32_t material) {
   return "material_" + std::to_string(material) + "_" + id_safe(scene.materials[material].name);
 }
 
-bool has_textures(const Material& authored) {
-  const Material material = mitsuba_twin(authored);
-  return material.base_colour_texture || material.metal_rough_texture || material.normal_map;
+bool has_textures(const Material& authored, MitsubaParts parts) {
+  const Material material = mitsuba_twin(authored, parts);
+  return material.base_colour_texture || material.metal_rough_texture || material.specular_gloss_texture || material.normal_map;
 }
 
-bool has_holes(const Material& material) { return material.alpha_cutoff && mitsuba_twin(material).base_colour_texture; }
+bool has_holes(const Material& material, MitsubaParts parts) {
+  return material.alpha_cutoff && mitsuba_twin(material, parts).base_colour_texture;
+}
 
 Status write_materials(Writer& writer) {
   const auto uses_default = [](const Object& object) { return object.material == no_index; };

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "etendue/io.h"
+#include "etendue/mitsuba_parts.h"
 
 namespace etendue {
 
-// What Mitsuba gets of a photometric light: pictures of its web, or the web itself for our own emitter, which run_mitsuba() brings.
-enum class MitsubaWebs { pictures, themselves };
-
-std::unique_ptr<Exporter> make_mitsuba_exporter(MitsubaWebs webs = MitsubaWebs::pictures);
+// With plugins (which run_mitsuba() brings) photometric webs and the models of Standard, MetalRough and SpecularGlossiness are written as
+// they are, for them.
+std::unique_ptr<Exporter> make_mitsuba_exporter(MitsubaParts parts = MitsubaParts::built_in);
 
 // The scene as make_mitsuba_exporter() writes it, and beside it NAME_light_I.xml for each light I of options.lit (all, if it is empty), in
 // which that light alone emits. They name files of the same folder, and each texture and mesh is made once.
@@ -21,6 +21,6 @@ struct MitsubaLightByLight {
   std::vector<std::filesystem::path> single;  // in the order of the lights
 };
 Result<MitsubaLightByLight> write_mitsuba_light_by_light(const Scene& scene, const std::filesystem::path& file,
-                                                         const ExportOptions& options, MitsubaWebs webs = MitsubaWebs::pictures);
+                                                         const ExportOptions& options, MitsubaParts parts = MitsubaParts::built_in);
 
 }  // namespace etendue

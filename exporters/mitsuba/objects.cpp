@@ -49,10 +49,10 @@ void report_mirrored_normals(Writer& writer, const Object& object, const Mesh& m
 }
 
 // A material without a picture is a hole everywhere or nowhere.
-bool is_all_hole(const Scene& scene, const Object& object) {
+bool is_all_hole(const Writer& writer, const Object& object) {
   if (object.material == no_index) return false;
-  const Material& material = scene.materials[object.material];
-  return material.alpha_cutoff && !has_holes(material) && material.base_alpha < *material.alpha_cutoff;
+  const Material& material = writer.scene.materials[object.material];
+  return material.alpha_cutoff && !has_holes(material, writer.parts) && material.base_alpha < *material.alpha_cutoff;
 }
 
 }  // namespace
@@ -73,10 +73,10 @@ Status write_objects(Writer& writer) {
   const Scene& scene = writer.scene;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    if (is_all_hole(scene, object)) continue;
+    if (is_all_hole(writer, object)) continue;
     const std::string id = "object_" + std::to_string(i) + "_" + id_safe(object.name);
     const std::string bsdf = material_id(scene, object.material);
-    const bool textured = object.material != no_index && has_textures(scene.materials[object.material]);
+    const bool textured = object.material != no_index && has_textures(scene.materials[object.material], writer.parts);
     if (const auto* sphere = std::get_if<SphereGeometry>(&object.geometry); sphere && !textured) {
       add_sphere(writer, id, object, sphere->radius, bsdf);
       continue;

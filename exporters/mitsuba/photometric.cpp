@@ -119,7 +119,7 @@ Status write_photometric(Writer& writer, const LightEntry& entry) {
   const auto& profile = std::get<eval::ProfileShape>(punctual.shape);
   const IntensityWeb& web = *profile.web;
   if (!(web.flux_lm() > 0)) return Done{};
-  if (writer.webs == MitsubaWebs::themselves) return write_plugin(writer, entry, web, profile.cone, punctual.intensity);
+  if (writer.parts == MitsubaParts::with_plugins) return write_plugin(writer, entry, web, profile.cone, punctual.intensity);
 
   WebShade cone;
   ShadedWeb shaded{web};

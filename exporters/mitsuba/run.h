@@ -32,8 +32,8 @@ struct MitsubaJob {
 };
 
 // One picture a job, pooled over its seeds: layers "" (mean) and "variance" (of the mean), "etendue:seeds". `cache`: a folder, made if need
-// be; a picture is taken from it when the XML, every file it names, the samples, seeds, variant and version are the same. Errors:
-// MITSUBA_FAILED with Mitsuba's own message, CANCELLED.
+// be; a picture is taken from it when the XML, every file it names, the samples, seeds, variant, version and our plugins are the same.
+// Errors: MITSUBA_FAILED with Mitsuba's own message, CANCELLED.
 Result<std::vector<Picture>> run_mitsuba(const Mitsuba& mitsuba, const std::vector<MitsubaJob>& jobs,
                                          const std::optional<std::filesystem::path>& cache, Progress* progress = nullptr);
 

@@ -18,7 +18,7 @@ struct Writer {
   pugi::xml_node root;
   LossReport& losses;
   Bounds bounds;  // of the scene
-  MitsubaWebs webs;
+  MitsubaParts parts;
   double extent_m;  // length that the scene, its camera and the origin fit into: floats are as coarse as 6e-8 of it
 };
 
@@ -26,9 +26,9 @@ struct Writer {
 Status write_materials(Writer& writer);
 std::string material_id(const Scene& scene, std::uint32_t material);
 // The material's lookups need uv coordinates.
-bool has_textures(const Material& material);
+bool has_textures(const Material& material, MitsubaParts parts);
 // Some part of the surface is a hole.
-bool has_holes(const Material& material);
+bool has_holes(const Material& material, MitsubaParts parts);
 
 // objects.cpp
 Status write_objects(Writer& writer);

@@ -63,8 +63,9 @@ std::optional<fs::path> cache_folder(const Options& options) {
 }
 
 // Whether Mitsuba's scene has other materials or distances than the asset: then our picture of the asset itself is made as well.
-bool differs_as_authored(const Scene& scene) {
+bool differs_as_authored(const Scene& scene, MitsubaParts parts) {
   for (const Material& material : scene.materials) {
+    if (parts == MitsubaParts::with_plugins) break;
     if (std::holds_alternative<MetalRough>(material.model) || std::holds_alternative<Standard>(material.model) ||
         std::holds_alternative<SpecularGlossiness>(material.model))
       return true;
@@ -155,8 +156,8 @@ Result<Validation> validate_scene(Session& session, const Options& options, Scen
                  "install an LLVM library from 16 on, or leave --plugins out",
                  {}};
   Validation validation;
-  const MitsubaWebs webs = options.plugins ? MitsubaWebs::themselves : MitsubaWebs::pictures;
-  const auto exported = write_mitsuba_light_by_light(scene, folder / "scene.xml", export_options, webs);
+  const MitsubaParts parts = options.plugins ? MitsubaParts::with_plugins : MitsubaParts::built_in;
+  const auto exported = write_mitsuba_light_by_light(scene, folder / "scene.xml", export_options, parts);
   if (!exported) return exported.error();
   session.diagnostics.append(exported->all.diagnostics);
   validation.losses = exported->all.losses;
@@ -178,6 +179,7 @@ Result<Validation> validate_scene(Session& session, const Options& options, Scen
   render_options.camera = *camera;
   render_options.lit = *lit;
   render_options.mitsuba_model = true;
+  render_options.mitsuba_parts = parts;
   render_options.expected_noise = expected_noise(request.split.per_light());
   render_options.threads = options.threads;
   options.shadows.apply(render_options);
@@ -195,7 +197,7 @@ Result<Validation> validate_scene(Session& session, const Options& options, Scen
   if (!reference) return reference.error();
   validation.mitsuba = std::move(*reference);
 
-  if (differs_as_authored(scene)) {
+  if (differs_as_authored(scene, parts)) {
     Result<Picture> authored = authored_picture(scene, render_options, bar);
     if (!authored) return authored.error();
     validation.report.authored = std::move(*authored);
@@ -308,7 +310,7 @@ void add_validate(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--mute", options->mute, "All but these lights");
   verb->add_option("--mitsuba", options->mitsuba, "The mitsuba command, its Python, or its virtual environment");
   verb->add_option("--cache", options->cache, "Folder for Mitsuba's pictures (default: the user's cache)");
-  verb->add_flag("--plugins", options->plugins, "Photometric webs in Mitsuba as they are, by our own emitter, instead of pictures of them");
+  verb->add_flag("--plugins", options->plugins, "Materials and photometric webs in Mitsuba as they are, by plugins of our own");
   verb->add_flag("--no-cache", options->no_cache, "Render all of Mitsuba's pictures anew");
   add_shadows(*verb, options->shadows);
   verb->add_option("--threads", options->threads, "Of our renderer; 0: every core")->capture_default_str();

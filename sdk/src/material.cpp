@@ -1,4 +1,4 @@
-#include "etendue/material.h"
+#include "etendue/mitsuba_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +49,10 @@ Conductor conductor_from_f0(const Rgb& f0, double alpha) {
   conductor.k = {0, 0, 0};
   conductor.alpha = alpha;
   return conductor;
+}
+
+Material mitsuba_twin(const Material& material, MitsubaParts parts) {
+  return parts == MitsubaParts::built_in ? mitsuba_twin(material) : material;
 }
 
 Material mitsuba_twin(const Material& material) {

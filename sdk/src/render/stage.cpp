@@ -51,7 +51,7 @@ std::string unused_layer(const std::vector<StageLight>& lights, const std::strin
 
 Result<std::unique_ptr<Stage>> Stage::build(const Scene& scene, const RenderOptions& options, Diagnostics& diagnostics) {
   std::unique_ptr<Stage> stage(new Stage);
-  if (Status done = stage->add_objects(scene, options.mitsuba_model); !done) return done.error();
+  if (Status done = stage->add_objects(scene, options); !done) return done.error();
   if (Status done = stage->add_lights(scene, options); !done) return done.error();
   if (Status done = stage->rays_.commit(); !done) return done.error();
   // Embree's vertices and origins are floats: half a unit in the last place of the largest coordinate, a few times over.
@@ -83,12 +83,15 @@ Result<const DecodedImage*> Stage::image(const Scene& scene, const Texture& text
   return images_.back().pixels.get();
 }
 
-Result<const Paint*> Stage::paint(const Scene& scene, std::uint32_t material, bool mitsuba_model) {
+Result<const Paint*> Stage::paint(const Scene& scene, std::uint32_t material, const RenderOptions& options) {
   for (const NamedPaint& known : paints_) {
     if (known.material == material) return &known.paint;
   }
   Paint paint;
-  if (material != no_index) paint.material = mitsuba_model ? mitsuba_twin(scene.materials[material]) : scene.materials[material];
+  if (material != no_index) {
+    const Material& authored = scene.materials[material];
+    paint.material = options.mitsuba_model ? mitsuba_twin(authored, options.mitsuba_parts) : authored;
+  }
   const auto want = [&](const std::optional<Texture>& texture, const DecodedImage*& pixels) -> Status {
     if (!texture) return Done{};
     const Result<const DecodedImage*> decoded = image(scene, *texture);
@@ -106,16 +109,16 @@ Result<const Paint*> Stage::paint(const Scene& scene, std::uint32_t material, bo
   if (paint.material.normal_map) {
     if (Status done = want(paint.material.normal_map->texture, paint.normal); !done) return done.error();
   }
-  paint.coarse_holes = mitsuba_model;
+  paint.coarse_holes = options.mitsuba_model;
   holes_ = holes_ || paint.has_holes();
   paints_.push_back({material, std::move(paint)});
   return &paints_.back().paint;
 }
 
-Status Stage::add_objects(const Scene& scene, bool mitsuba_model) {
+Status Stage::add_objects(const Scene& scene, const RenderOptions& options) {
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    const Result<const Paint*> looks = paint(scene, object.material, mitsuba_model);
+    const Result<const Paint*> looks = paint(scene, object.material, options);
     if (!looks) return looks.error();
     Thing& thing = add_thing();
     thing.object = i;
@@ -146,7 +149,7 @@ Status Stage::add_lights(const Scene& scene, const RenderOptions& options) {
     lit[i] = true;
   }
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-    if (Status done = add_light(scene, i, lit[i], options.mitsuba_model); !done) return done;
+    if (Status done = add_light(scene, i, lit[i], options); !done) return done;
   }
   return Done{};
 }
@@ -159,14 +162,14 @@ Result<eval::Emitter> Stage::emitter(const Scene& scene, const Light& light) {
   });
 }
 
-Status Stage::add_light(const Scene& scene, std::uint32_t index, bool lit, bool mitsuba_model) {
+Status Stage::add_light(const Scene& scene, std::uint32_t index, bool lit, const RenderOptions& options) {
   const Light& light = scene.lights[index];
   Result<eval::Emitter> made = emitter(scene, light);
   if (!made) return made.error();
   StageLight staged;
   staged.index = index;
   staged.emitter = std::move(*made);
-  if (mitsuba_model) staged.emitter.window = {};
+  if (options.mitsuba_model) staged.emitter.window = {};
   staged.as_seen = staged.emitter;
   staged.as_seen.window = {};
   staged.delta = is_delta(staged.emitter.shape);
@@ -181,12 +184,12 @@ Status Stage::add_light(const Scene& scene, std::uint32_t index, bool lit, bool 
     staged.extent = Ball{(box.min + box.max) * 0.5, 0.5 * length(box.max - box.min)};
   }
   // Mitsuba has no invisible area lights.
-  if ((light.visible || mitsuba_model) && (shape || mesh != nullptr)) {
+  if ((light.visible || options.mitsuba_model) && (shape || mesh != nullptr)) {
     staged.thing = static_cast<std::uint32_t>(things_.size());
     Thing& thing = add_thing();
     thing.light = index;
     if (light.surface_material) {
-      const Result<const Paint*> looks = paint(scene, *light.surface_material, mitsuba_model);
+      const Result<const Paint*> looks = paint(scene, *light.surface_material, options);
       if (!looks) return looks.error();
       thing.paint = *looks;
     }
@@ -196,7 +199,7 @@ Status Stage::add_light(const Scene& scene, std::uint32_t index, bool lit, bool 
     } else {
       Transform scale;
       scale.columns = {Vec3d{mesh->scale.x, 0, 0}, Vec3d{0, mesh->scale.y, 0}, Vec3d{0, 0, mesh->scale.z}};
-      thing.mesh = to_world(scene.meshes[mesh->mesh], light.transform * scale, thing.paint == nullptr || mitsuba_model);
+      thing.mesh = to_world(scene.meshes[mesh->mesh], light.transform * scale, thing.paint == nullptr || options.mitsuba_model);
       rays_.add(thing.mesh.triangles);
     }
   }

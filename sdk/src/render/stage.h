@@ -47,11 +47,11 @@ class Stage {
 
  private:
   Stage() = default;
-  Status add_objects(const Scene& scene, bool mitsuba_model);
+  Status add_objects(const Scene& scene, const RenderOptions& options);
   Status add_lights(const Scene& scene, const RenderOptions& options);
-  Status add_light(const Scene& scene, std::uint32_t index, bool lit, bool mitsuba_model);
+  Status add_light(const Scene& scene, std::uint32_t index, bool lit, const RenderOptions& options);
   Result<const DecodedImage*> image(const Scene& scene, const Texture& texture);
-  Result<const Paint*> paint(const Scene& scene, std::uint32_t material, bool mitsuba_model);
+  Result<const Paint*> paint(const Scene& scene, std::uint32_t material, const RenderOptions& options);
   Thing& add_thing();
   Result<eval::Emitter> emitter(const Scene& scene, const Light& light);
 

@@ -1,0 +1,140 @@
+// Our plugins inside the real Mitsuba: their BSDFs are our BRDFs, and pictures with them are ours.
+#include "fixture.h"
+
+#include "etendue/compare.h"
+#include "etendue/eval.h"
+#include "etendue/render.h"
+#include "process.h"
+#include "source_dir.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace etendue::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool vectorised() { return mitsuba() != nullptr && !mitsuba()->variant.starts_with("scalar"); }
+
+// Rows of numbers that plugin_values.py prints.
+std::vector<std::vector<double>> values_of(const std::string& model, int materials, int directions) {
+  std::vector<std::vector<double>> rows;
+  ProcessCall call;
+  call.arguments = {mitsuba()->python.string(),
+                    (source_dir() / "tests/mitsuba/plugin_values.py").string(),
+                    (source_dir() / "exporters/mitsuba/surface_bsdfs.py").string(),
+                    model,
+                    std::to_string(materials),
+                    std::to_string(directions),
+                    "7"};
+  if (mitsuba()->llvm) call.environment.emplace_back("DRJIT_LIBLLVM_PATH", mitsuba()->llvm->string());
+  std::string last;
+  call.on_line = [&](std::string_view line) {
+    last = line;
+    std::stringstream cells{last};
+    std::vector<double> row;
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      char* end = nullptr;
+      row.push_back(std::strtod(cell.c_str(), &end));
+      if (end == cell.c_str()) return;  // a message
+    }
+    rows.push_back(std::move(row));
+  };
+  const Result<ProcessEnd> end = run_process(call);
+  EXPECT_TRUE(end.ok() && end->exit_status == 0) << last;
+  return rows;
+}
+
+// The directions are floats that are read in full, so both evaluate the same configuration, and v + l loses no digit where they nearly
+// cancel across the normal. What is left is the rounding of some 30 operations, each of them 6e-8 of a value that the result follows at
+// most by its fourth power (D, w): 30 * 4 * 6e-8 = 7e-6 if all went one way.
+// `densities`: directions are chosen with ours too.
+void expect_equal(const std::string& model, std::size_t parameters, bool densities,
+                  const std::function<eval::Brdf(const double*)>& brdf_of) {
+  const auto rows = values_of(model, 30, 400);
+  ASSERT_EQ(rows.size(), 12000u);
+  constexpr double limit = 7e-6;
+  double worst = 0, worst_pdf = 0;
+  for (const std::vector<double>& row : rows) {
+    ASSERT_EQ(row.size(), parameters + 10);
+    const double* const d = row.data() + parameters;
+    const Vec3d view{d[0], d[1], d[2]}, light{d[3], d[4], d[5]};
+    const eval::Brdf brdf = brdf_of(row.data());
+    const Rgb ours = eval::brdf_cos(brdf, view, light);
+    for (int c = 0; c < 3; ++c) {
+      ASSERT_GT(ours[c], 0);
+      worst = std::max(worst, std::abs(d[6 + c] / ours[c] - 1));
+    }
+    worst_pdf = std::max(worst_pdf, std::abs(d[9] / eval::pdf_brdf(brdf, view, light) - 1));
+  }
+  EXPECT_LE(worst, limit) << model;
+  if (densities) {
+    EXPECT_LE(worst_pdf, limit) << model;
+  }
+  std::printf("%s: largest relative deviation %.1e, of the density %.1e (limit %.0e)\n", model.c_str(), worst, worst_pdf, limit);
+}
+
+TEST(Plugins, StandardIsOurs) {
+  if (!vectorised()) GTEST_SKIP() << "no Mitsuba in .venv or ETENDUE_MITSUBA, or no LLVM library for it";
+  expect_equal("etendue_standard", 6, true, [](const double* p) { return Standard{{p[0], p[1], p[2]}, p[3], p[4], p[5]}; });
+}
+TEST(Plugins, MetalRoughIsOurs) {
+  if (!vectorised()) GTEST_SKIP() << "no Mitsuba in .venv or ETENDUE_MITSUBA, or no LLVM library for it";
+  expect_equal("etendue_metal_rough", 6, false, [](const double* p) { return MetalRough{{p[0], p[1], p[2]}, p[3], p[4], p[5]}; });
+}
+TEST(Plugins, SpecularGlossinessIsOurs) {
+  if (!vectorised()) GTEST_SKIP() << "no Mitsuba in .venv or ETENDUE_MITSUBA, or no LLVM library for it";
+  expect_equal("etendue_specular_glossiness", 7, true, [](const double* p) {
+    return two_colour_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, p[6]});
+  });
+}
+
+// A floor under a lamp, ours against Mitsuba's. `same` excludes a difference of more than .3 % in the picture and in its tiles, so 1 % more
+// of either side fails.
+void expect_same_picture(const std::string& name, const Material& material, const Shape& lamp) {
+  Scene scene;
+  Object floor;
+  floor.name = "floor";
+  floor.geometry = PlaneGeometry{4};
+  floor.material = 0;
+  scene.objects.push_back(floor);
+  scene.materials.push_back(material);
+  Light light = light_of(lamp);
+  light.transform = aimed({0.4, 1, -0.6}, {-0.3, -1, 0.3});
+  scene.lights.push_back(light);
+  scene.cameras.push_back(look_at({0, 1.6, 2.2}, {0, 0, 0}, 0.7));
+
+  ExportOptions options;
+  options.width = options.height = 32;
+  const auto written = make_mitsuba_exporter(MitsubaParts::with_plugins)->write(scene, scratch() / (name + ".xml"), options);
+  ASSERT_TRUE(written.ok());
+  EXPECT_TRUE(written->losses.losses.empty()) << written->losses.losses[0].what;
+  const std::vector<Picture> theirs = rendered({scratch() / (name + ".xml")}, 256, 8);
+  ASSERT_EQ(theirs.size(), 1u);
+
+  RenderOptions ours;
+  ours.width = ours.height = 32;
+  ours.mitsuba_model = true;
+  ours.mitsuba_parts = MitsubaParts::with_plugins;
+  const Result<Rendered> picture = render(scene, ours);
+  ASSERT_TRUE(picture.ok());
+  CompareOptions asked;
+  asked.max_difference = 0.003;
+  const Result<Comparison> comparison = compare(picture->picture, theirs[0], asked, {"floor"});
+  ASSERT_TRUE(comparison.ok());
+  EXPECT_EQ(comparison->verdict, Verdict::same) << name << ": mean difference " << comparison->mean_rel;
+  std::printf("%s: mean difference %+.3f %%, verdict %s\n", name.c_str(), 100 * comparison->mean_rel, name_of(comparison->verdict));
+}
+
+TEST(Plugins, PicturesOfStandardAreOurs) {
+  if (!vectorised()) GTEST_SKIP() << "no Mitsuba in .venv or ETENDUE_MITSUBA, or no LLVM library for it";
+  Material material;
+  material.model = Standard{{0.8, 0.5, 0.2}, 0, 0.5, 0.5};
+  expect_same_picture("dielectric", material, SphereShape{0.15});
+  material.model = Standard{{0.8, 0.5, 0.2}, 1, 0.7, 0.5};
+  expect_same_picture("metal", material, RectShape{0.5, 0.4});
+}
+
+}  // namespace
+}  // namespace etendue::testing
