@@ -101,6 +101,68 @@ TEST(SpecularBatch, IsTheMethodInDouble) {
     }
   });
 }
+// A round light's outline stays a cone over an ellipse, so that its form is as exact in floats as digits allow.
+TEST(SpecularBatch, OfRoundLightsIsTheTransformedCosineInDouble) {
+  on_each_instruction_set([] {
+    for (const char* name : {"ltc", "ltc-two-lobes"}) {
+      const SpecularMethod& method = *find_specular_method(name);
+      Random random(6);
+      double errors = 0, sum = 0;
+      for (int i = 0; i < 40; ++i) {
+        Emitter light = place(i % 2 == 0 ? Kind::sphere : Kind::disk, random, true).emitter;
+        light.two_sided = i % 4 == 1;
+        Views views;
+        for (int k = 0; k < 100; ++k) {
+          const auto position = point_around(light.shape, random);
+          if (!position) continue;
+          const Placement p{light, *position, random.direction(), {}};
+          views.add(p.position, p.normal, view_of(p, random), std::pow(10.0, random.uniform(-3, 0)));
+        }
+        const Answers found = answers(name, light, views);
+        for (std::size_t k = 0; k < views.alpha.size(); ++k) {
+          for (const bool metal : {true, false}) {
+            const ShadingPoint point = views.point(k, metal ? 1 : 0.04, 1);
+            const double expected = method.luminance(light, point)->x;
+            const double value = (metal ? 1 : 0.04) * static_cast<double>(found.of_f0[k]) + static_cast<double>(found.of_f90[k]);
+            const double narrow = static_cast<double>(views.alpha[k]) * std::abs(dot(point.view, point.normal));
+            EXPECT_NEAR(value, expected, 1e-4 * expected + 1e-5 + 2e-6 / narrow) << name << ' ' << i << ' ' << k;
+            errors += std::abs(value - expected), sum += expected;
+          }
+        }
+      }
+      EXPECT_LT(errors, 5e-6 * sum);
+    }
+  });
+}
+// In contact, within, far away, edge-on, of no size and of any, from every angle.
+TEST(SpecularBatch, OfRoundLightsIsFiniteLight) {
+  on_each_instruction_set([] {
+    Random random(10);
+    for (const char* name : {"ltc", "ltc-two-lobes"}) {
+      for (const double size : {0.0, 1e-6, 1.0, 1e5}) {
+        Emitter disk = white(DiskEmitter{{}, {0, 0, 1}, {1, 0, 0}, size});
+        disk.two_sided = true;
+        for (const Emitter& light : {disk, white(SphereEmitter{{}, size})}) {
+          Views views;
+          for (int i = 0; i < 1500; ++i) {
+            const Vec3d n = random.direction(), across = normalised(cross(n, random.direction()));
+            const double lift = std::array{0.0, 1e-9, 1e-4, 0.1, 1.0}[static_cast<std::size_t>(i % 5)];
+            Vec3d position = random.direction() * std::pow(10.0, random.uniform(-6, 6));
+            if (i % 3 == 0) position.z *= std::pow(10.0, random.uniform(-8, 0));
+            if (i % 11 == 0) position = random.direction() * (size * (1 + std::pow(10.0, random.uniform(-8, 0))));
+            views.add(position, n, i % 7 == 0 ? n : normalised(across + n * lift), std::pow(10.0, random.uniform(-6, 0.5)));
+          }
+          views.add({}, {0, 0, 1}, {0, 0, 1}, 0.3);
+          const Answers found = answers(name, light, views);
+          for (std::size_t i = 0; i < views.alpha.size(); ++i) {
+            EXPECT_TRUE(found.of_f0[i] >= 0 && found.of_f90[i] >= 0 && found.of_f0[i] + found.of_f90[i] <= 1.0002f)
+                << name << ' ' << size << ' ' << i << ' ' << found.of_f0[i] << ' ' << found.of_f90[i];
+          }
+        }
+      }
+    }
+  });
+}
 // A sphere's circle is cut into four parts, in double into six, so that each has errors of its own, of which the batch's are twice as
 // large: all of them over all the light, within what is asked of a fast mode.
 TEST(SpecularBatch, OfASphereIsCloseToTheReference) {
@@ -222,7 +284,7 @@ TEST(SpecularBatch, RefusesWhatItHasNoVectorsFor) {
   EXPECT_EQ(batch->shares(views.points(), one, two, 0).error().code, "BATCH_SIZES_DIFFER");
   light.window = {Falloff::gltf, 3};
   EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc, light).error().code, "METHOD_SHAPE");
-  EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc, white(SphereEmitter{{}, 1})).error().code, "METHOD_SHAPE");
+  EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc, white(TubeEmitter{{}, {1, 0, 0}, 1, Caps::round})).error().code, "METHOD_SHAPE");
   EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc, white(PunctualEmitter{{}, {}, {1, 1, 1}, PointShape{}})).error().code, "METHOD_SHAPE");
 }
 TEST(SpecularBatch, ScalesWithTheLuminance) {

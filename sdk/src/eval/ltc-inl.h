@@ -95,18 +95,22 @@ HWY_INLINE Lanes covered(const Cosines& cosines, const Outline<N>& light) {
 }
 
 // `ltc` and, with a cosine each for both parts that Schlick's weight makes of the lobe, `ltc-two-lobes`.
+// covered(cosines): the share of the light of one of them.
+template <bool two_lobes>
+HWY_INLINE Shares by_cosines(const LtcNodes& nodes, const ViewFrame& view, Lanes alpha, const auto& covered) {
+  constexpr std::size_t f0 = LtcTable::albedo, first = two_lobes ? f0 : 0;
+  const auto terms = between_nodes < two_lobes ? 3 : 2 > (nodes, first, alpha, view.cosine);
+  const auto share = [&](std::size_t from)
+                         ETENDUE_INLINE_LAMBDA { return covered(transformed_cosine(terms.data() + (from - first), alpha, view)); };
+  const Lanes of_f0 = share(two_lobes ? LtcTable::steep : 0), of_f90 = two_lobes ? share(LtcTable::grazing) : of_f0;
+  return {hn::Mul(terms[f0 - first], of_f0), hn::Mul(terms[f0 + 1 - first], of_f90)};
+}
 template <bool two_lobes>
 struct ThroughTable {
   LtcNodes nodes;
   template <std::size_t N>
   HWY_INLINE Shares operator()(const ViewFrame& view, Lanes alpha, const Outline<N>& light) const {
-    constexpr std::size_t f0 = LtcTable::albedo;
-    constexpr std::size_t first = two_lobes ? f0 : 0;
-    const auto terms = between_nodes < two_lobes ? 3 : 2 > (nodes, first, alpha, view.cosine);
-    const auto share = [&](std::size_t from)
-                           ETENDUE_INLINE_LAMBDA { return covered(transformed_cosine(terms.data() + (from - first), alpha, view), light); };
-    const Lanes of_f0 = share(two_lobes ? LtcTable::steep : 0), of_f90 = two_lobes ? share(LtcTable::grazing) : of_f0;
-    return {hn::Mul(terms[f0 - first], of_f0), hn::Mul(terms[f0 + 1 - first], of_f90)};
+    return by_cosines<two_lobes>(nodes, view, alpha, [&](const Cosines& cosines) ETENDUE_INLINE_LAMBDA { return covered(cosines, light); });
   }
 };
 

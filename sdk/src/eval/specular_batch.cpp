@@ -33,6 +33,7 @@ Result<SpecularBatch> SpecularBatch::of(SpecularRule rule, const Emitter& emitte
   if (!white.pattern && !is_window(white.window)) {
     light = specular_rect(white);
     if (!light) light = specular_sphere(rule, white);
+    if (!light) light = specular_round(rule, white);
   }
   if (!light) return Error{"METHOD_SHAPE", std::string(name_of(rule)) + " has no vectors for this light", {}, {}, {}};
   return SpecularBatch(rule, std::move(light), emitter.radiance);

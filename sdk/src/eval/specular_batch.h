@@ -23,8 +23,9 @@ class SpecularBatch::Light {
 
 // Of an emitter of luminance 1; null if it is no rectangle.
 std::shared_ptr<const SpecularBatch::Light> specular_rect(const Emitter& white);
-// The same of a sphere, which moments take alone.
+// The same of a sphere, by moments, and of spheres and disks by transformed cosines.
 std::shared_ptr<const SpecularBatch::Light> specular_sphere(SpecularRule rule, const Emitter& white);
+std::shared_ptr<const SpecularBatch::Light> specular_round(SpecularRule rule, const Emitter& white);
 
 // The method in double at one point of a batch.
 SchlickShares in_double(SpecularRule rule, const Emitter& white, const SpecularPoints& points, std::size_t index);

@@ -1,0 +1,140 @@
+// Specular light of spheres and disks at many points by transformed cosines: their outlines are cones over ellipses, whatever the matrix.
+#include "light_batch.h"
+#include "specular_batch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "eval/specular_round_batch.cpp"  // this file: compiled again for each instruction set
+#include <hwy/foreach_target.h>
+
+#include <array>
+#include <cmath>
+
+#include "eval/ltc_cone-inl.h"
+
+#ifndef ETENDUE_SPECULAR_ROUND_BATCH_SHARED
+#define ETENDUE_SPECULAR_ROUND_BATCH_SHARED
+namespace etendue::eval {
+struct SpecularRound {
+  Place centre;
+  float radius;
+  Direction normal, x, y;  // of a disk
+  const Emitter& white;
+};
+}  // namespace etendue::eval
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace etendue::eval::HWY_NAMESPACE {
+namespace {
+
+// The cone, what of its lanes is seen at all, and those that floats are not enough for.
+struct Outlook {
+  Ellipse cone;
+  Lit seen, doubtful;
+};
+
+HWY_INLINE Outlook outlook_of_sphere(const SpecularRound& light, const Vector3& position, const ViewFrame& frame) {
+  const Floats d;
+  const Lanes one = number(1);
+  const Vector3 centre = frame(towards(d, light.centre, position));
+  const Lanes over_distance = inverse_sqrt(d, dot(centre, centre));
+  const Vector3 axis = scaled(centre, over_distance);
+  const Lanes sine = hn::Mul(number(light.radius), over_distance), cosine = hn::Sqrt(positive(hn::NegMulAdd(sine, sine, one)));
+  // Any axes across it (Duff et al. 2017).
+  const Lanes side = hn::CopySign(one, axis.z), f = hn::Neg(inverse(d, hn::Add(side, axis.z))), g = hn::Mul(hn::Mul(axis.x, axis.y), f);
+  const Vector3 u{hn::MulAdd(hn::Mul(side, f), hn::Mul(axis.x, axis.x), one), hn::Mul(side, g), hn::Neg(hn::Mul(side, axis.x))};
+  const Vector3 v{g, hn::MulAdd(f, hn::Mul(axis.y, axis.y), side), hn::Neg(axis.y)};
+  return {{scaled(axis, cosine), scaled(u, sine), scaled(v, sine)},
+          hn::FirstN(d, hn::Lanes(d)),
+          hn::Or(hn::Lt(sine, number(0.5f * least_angle)), hn::Ge(sine, number(0.99999f)))};
+}
+HWY_INLINE Outlook outlook_of_disk(const SpecularRound& light, const Vector3& position, const ViewFrame& frame) {
+  const Floats d;
+  const Lanes zero = number(0);
+  const Vector3 centre = towards(d, light.centre, position);
+  const Lanes height = hn::Neg(dot(centre, numbers(d, light.normal))), r = number(light.radius), distance2 = dot(centre, centre);
+  const Lanes over = inverse_sqrt(d, hn::MulAdd(r, r, distance2)), radius = hn::Mul(r, over);
+  const Lit front = light.white.two_sided ? hn::Ne(height, zero) : hn::Gt(height, zero);
+  // Edge-on, far away, at the rim.
+  const Lanes flat = hn::Mul(height, over), inside = hn::MulSub(hn::Mul(distance2, over), over, hn::Mul(radius, radius));
+  const Lanes flat2 = hn::Mul(flat, flat), to_rim2 = hn::MulAdd(hn::Mul(inside, inside), number(0.25f), flat2);
+  const Lit doubtful =
+      hn::Or(hn::Or(hn::Lt(flat2, number(1e-6f)), hn::Lt(to_rim2, number(1e-5f))), hn::Lt(radius, number(0.5f * least_angle)));
+  return {{frame(scaled(centre, over)), frame(scaled(numbers(d, light.x), radius)), frame(scaled(numbers(d, light.y), radius))},
+          front,
+          hn::And(doubtful, front)};
+}
+
+template <bool two_lobes, bool sphere>
+class RoundLobe {
+ public:
+  RoundLobe(const SpecularRound& light, const LtcNodes& nodes) : light_(light), nodes_(nodes) {}
+  HWY_INLINE Shares operator()(const Vector3& position, const Vector3& normal, const Vector3& view, Lanes alpha, Lit& doubtful) const {
+    const Lanes zero = number(0);
+    const ViewFrame frame = view_frame(normal, view);
+    const Outlook out = sphere ? outlook_of_sphere(light_, position, frame) : outlook_of_disk(light_, position, frame);
+    const Ellipse& cone = out.cone;
+    const Lit crossed = hn::Lt(hn::Mul(cone.centre.z, cone.centre.z), hn::MulAdd(cone.u.z, cone.u.z, hn::Mul(cone.v.z, cone.v.z)));
+    const Lit lit = hn::And(hn::And(hn::Gt(frame.cosine, zero), out.seen), hn::Or(crossed, hn::Gt(cone.centre.z, zero)));
+    doubtful = hn::And(out.doubtful, hn::Gt(frame.cosine, zero));
+    const Shares shares = by_cosines<two_lobes>(
+        nodes_, frame, alpha, [&](const Cosines& cosines) ETENDUE_INLINE_LAMBDA { return covered(cosines, cone, crossed); });
+    return {hn::IfThenElseZero(lit, shares.of_f0), hn::IfThenElseZero(lit, shares.of_f90)};
+  }
+
+ private:
+  const SpecularRound& light_;
+  LtcNodes nodes_;
+};
+
+std::size_t OverSpecularRound(SpecularRule rule, const SpecularRound& light, const LtcNodes& nodes, const SpecularPoints& points,
+                              std::span<float> of_f0, std::span<float> of_f90, float where_none) {
+  const auto exact = [&](std::size_t index) { return in_double(rule, light.white, points, index); };
+  const auto with = [&](auto kernel) { return over_views(points, of_f0, of_f90, where_none, kernel, exact); };
+  const bool two_lobes = rule == SpecularRule::ltc_two_lobes;
+  if (std::holds_alternative<SphereEmitter>(light.white.shape))
+    return two_lobes ? with(RoundLobe<true, true>(light, nodes)) : with(RoundLobe<false, true>(light, nodes));
+  return two_lobes ? with(RoundLobe<true, false>(light, nodes)) : with(RoundLobe<false, false>(light, nodes));
+}
+
+}  // namespace
+}  // namespace etendue::eval::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace etendue::eval {
+namespace {
+
+HWY_EXPORT(OverSpecularRound);
+
+class RoundLight final : public SpecularBatch::Light {
+ public:
+  explicit RoundLight(const Emitter& white) : white_(white) {}
+  std::size_t over(SpecularRule rule, const SpecularPoints& points, std::span<float> of_f0, std::span<float> of_f90,
+                   float where_none) const override {
+    return HWY_DYNAMIC_DISPATCH(OverSpecularRound)(rule, placed(points.surface.origin), ltc_nodes(), points, of_f0, of_f90, where_none);
+  }
+
+ private:
+  SpecularRound placed(const Vec3d& origin) const {
+    const auto light = [&](const Vec3d& centre, double radius, const Vec3d& normal, const Vec3d& x) {
+      return SpecularRound{Place(centre - origin), static_cast<float>(radius),  Direction(normal),
+                           Direction(x),           Direction(cross(normal, x)), white_};
+    };
+    if (const auto* sphere = std::get_if<SphereEmitter>(&white_.shape)) return light(sphere->centre, sphere->radius, {}, {});
+    const auto& disk = std::get<DiskEmitter>(white_.shape);
+    return light(disk.centre, disk.radius, disk.normal, disk.x);
+  }
+
+  Emitter white_;
+};
+
+}  // namespace
+
+std::shared_ptr<const SpecularBatch::Light> specular_round(SpecularRule rule, const Emitter& white) {
+  const bool round = std::holds_alternative<SphereEmitter>(white.shape) || std::holds_alternative<DiskEmitter>(white.shape);
+  return round && rule != SpecularRule::moments ? std::make_shared<RoundLight>(white) : nullptr;
+}
+
+}  // namespace etendue::eval
+#endif
