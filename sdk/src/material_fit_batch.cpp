@@ -1,0 +1,255 @@
+// The globally best Disney parameters of many colour pairs in float: the profile of metal_profile.h over a grid of metal masks with its
+// slope, and the valley of the most promising cell.
+#include "etendue/material_fit_batch.h"
+
+#include "batch_error.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "material_fit_batch.cpp"  // this file: compiled again for each instruction set
+#include <hwy/foreach_target.h>
+
+#include "simd-inl.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+HWY_BEFORE_NAMESPACE();
+namespace etendue::HWY_NAMESPACE {
+namespace {
+
+constexpr float largest_k = static_cast<float>(largest_dielectric_f0), core_k = static_cast<float>(largest_dielectric_f0 / 4);
+// The grid, and how often the valley of the most promising cell and of the next one is narrowed down.
+constexpr int cells = 12, refinements = 4, second_refinements = 3;
+
+using D = hn::ScalableTag<float>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+HWY_INLINE V set(float x) { return hn::Set(D(), x); }
+
+// A metal mask, the dielectric part that suits it, what is left of the six squares, and half its derivative in m.
+struct Point {
+  V m, k, residual, slope;
+};
+HWY_INLINE Point choose(M which, const Point& yes, const Point& no) {
+  return {hn::IfThenElse(which, yes.m, no.m), hn::IfThenElse(which, yes.k, no.k), hn::IfThenElse(which, yes.residual, no.residual),
+          hn::IfThenElse(which, yes.slope, no.slope)};
+}
+HWY_INLINE Point better(const Point& a, const Point& b) { return choose(hn::Lt(a.residual, b.residual), a, b); }
+
+class Profile {
+ public:
+  HWY_INLINE Profile(const V* diffuse, const V* f0, bool core) : core_(core) {
+    for (int c = 0; c < 3; ++c) d_[c] = diffuse[c], f_[c] = f0[c];
+    f_sum_ = hn::Add(f_[0], hn::Add(f_[1], f_[2]));
+  }
+
+  // The base colours at (m, k): the best of each channel, held within [0, 1].
+  HWY_INLINE void base(V m, V k, V* b) const {
+    const V s = hn::Sub(set(1), m), per_n = hn::Div(set(1), hn::MulAdd(s, s, hn::Mul(m, m)));
+    for (int c = 0; c < 3; ++c) {
+      const V g = hn::Sub(f_[c], k);
+      b[c] = held_within(hn::Zero(D()), hn::Mul(hn::MulAdd(s, d_[c], hn::Mul(m, g)), per_n), set(1));
+    }
+  }
+
+  // Two of Newton's steps in k from a neighbour's: half the derivative in k, 3 k - sum f + m sum b, has straight pieces, and a step within
+  // one ends at its root.
+  HWY_INLINE Point at(V m, V k) const {
+    const V zero = hn::Zero(D()), one = set(1);
+    const V s = hn::Sub(one, m), per_n = hn::Div(one, hn::MulAdd(s, s, hn::Mul(m, m))), t = hn::Mul(m, per_n);
+    V free[3], b[3];  // the base colour without bounds is free - t k
+    for (int c = 0; c < 3; ++c) free[c] = hn::Mul(hn::MulAdd(s, d_[c], hn::Mul(m, f_[c])), per_n);
+    const auto held = [&](int c) HWY_ATTR { return held_within(zero, hn::NegMulAdd(t, k, free[c]), one); };
+    if (core_) {
+      k = hn::Mul(set(core_k), s);
+    } else {
+      const V highest = hn::Mul(set(largest_k), s), mt = hn::Mul(m, t);
+      k = hn::Min(k, highest);
+      for (int step = 0; step < 2; ++step) {
+        V sum = zero, curvature = set(3);
+        for (const V& at_zero : free) {
+          const V wanted = hn::NegMulAdd(t, k, at_zero), got = held_within(zero, wanted, one);
+          sum = hn::Add(sum, got);
+          curvature = hn::Sub(curvature, hn::IfThenElseZero(hn::Eq(wanted, got), mt));
+        }
+        const V derivative = hn::MulAdd(m, sum, hn::MulSub(set(3), k, f_sum_));
+        k = held_within(zero, hn::Sub(k, hn::Div(derivative, hn::Max(curvature, set(1e-6f)))), highest);
+      }
+    }
+    V residual = zero, slope = zero, specular_sum = zero;
+    for (int c = 0; c < 3; ++c) {
+      b[c] = held(c);
+      const V diffuse = hn::MulSub(s, b[c], d_[c]), specular = hn::MulAdd(m, b[c], hn::Sub(k, f_[c]));
+      residual = hn::MulAdd(diffuse, diffuse, hn::MulAdd(specular, specular, residual));
+      slope = hn::MulAdd(b[c], hn::Sub(specular, diffuse), slope);
+      specular_sum = hn::Add(specular_sum, specular);
+    }
+    // k = kappa s moves with m.
+    const V kappa = hn::Div(k, hn::Max(s, set(1e-6f)));
+    return {m, k, residual, hn::NegMulAdd(kappa, specular_sum, slope)};
+  }
+
+  // Where the residual is least without any bound, and what it is there: FreeOptimum of material_fit.cpp with tan(t) for the half angle,
+  // t = atan2(2 X, D - F) / 2.
+  HWY_INLINE V free_metal(V* least) const {
+    const V third = set(1.0f / 3), d_mean = hn::Mul(third, hn::Add(d_[0], hn::Add(d_[1], d_[2]))), f_mean = hn::Mul(third, f_sum_);
+    V dd = hn::Zero(D()), df = dd, ff = dd;
+    for (int c = 0; c < 3; ++c) {
+      const V a = hn::Sub(d_[c], d_mean), b = hn::Sub(f_[c], f_mean);
+      dd = hn::MulAdd(a, a, dd), df = hn::MulAdd(a, b, df), ff = hn::MulAdd(b, b, ff);
+    }
+    const V twice = hn::Add(df, df), p = hn::Sub(dd, ff), h = hn::Sqrt(hn::MulAdd(p, p, hn::Mul(twice, twice)));
+    // tan t = 2X / (h + p) = (h - p) / 2X, whichever does not cancel.
+    const M positive = hn::Gt(p, hn::Zero(D()));
+    const V up = hn::IfThenElse(positive, twice, hn::Sub(h, p)), across = hn::IfThenElse(positive, hn::Add(h, p), twice);
+    const V m = hn::Div(up, hn::Max(hn::Add(up, across), set(1e-30f)));
+    const V inside = held_within(hn::Zero(D()), m, set(1)), s = hn::Sub(set(1), inside);
+    const V quotient = hn::MulAdd(dd, hn::Mul(inside, inside), hn::MulSub(ff, hn::Mul(s, s), hn::Mul(twice, hn::Mul(inside, s))));
+    *least = hn::Div(quotient, hn::MulAdd(s, s, hn::Mul(inside, inside)));
+    return hn::IfThenElse(hn::Gt(df, hn::Zero(D())), inside, hn::IfThenElseZero(hn::Lt(p, hn::Zero(D())), set(1)));
+  }
+
+ private:
+  V d_[3], f_[3], f_sum_;
+  bool core_;
+};
+
+// Where the cubic with these values and slopes at both ends has its valley, how low it is, and whether it has one between them. Its place
+// is held a tenth of the width from both ends: beside a kink of the profile the cubic would creep.
+struct Valley {
+  V m, residual;
+  M exists;
+};
+HWY_INLINE Valley valley_between(const Point& a, const Point& b) {
+  const V width = hn::Sub(b.m, a.m), per_width = hn::Div(set(1), hn::Max(width, set(1e-20f)));
+  const V ga = hn::Add(a.slope, a.slope), gb = hn::Add(b.slope, b.slope);
+  const V rise = hn::Mul(hn::Sub(b.residual, a.residual), per_width);
+  const V d1 = hn::NegMulAdd(set(3), rise, hn::Add(ga, gb));
+  const V radicand = hn::NegMulAdd(ga, gb, hn::Mul(d1, d1)), d2 = hn::Sqrt(hn::Max(radicand, hn::Zero(D())));
+  const V below = hn::Max(hn::Add(hn::Sub(gb, ga), hn::Add(d2, d2)), set(1e-20f));
+  const V place = hn::Sub(set(1), hn::Div(hn::Sub(hn::Add(gb, d2), d1), below));
+  const M exists = hn::And(hn::Ge(radicand, hn::Zero(D())), hn::Eq(place, held_within(hn::Zero(D()), place, set(1))));
+  const V x = held_within(set(0.1f), place, set(0.9f));
+  // a + width x (ga + x ((3 rise - 2 ga - gb) + x (ga + gb - 2 rise)))
+  const V c3 = hn::NegMulAdd(set(2), rise, hn::Add(ga, gb)), c2 = hn::Sub(hn::NegMulAdd(set(2), ga, hn::Mul(set(3), rise)), gb);
+  const V depth = hn::MulAdd(x, hn::MulAdd(x, c3, c2), ga);
+  return {hn::MulAdd(width, x, a.m), hn::MulAdd(hn::Mul(width, x), depth, a.residual), exists};
+}
+
+// Between two points, with its valley's depth.
+struct Cell {
+  Point left, right;
+  V depth;
+};
+HWY_INLINE Cell choose(M which, const Cell& yes, const Cell& no) {
+  return {choose(which, yes.left, no.left), choose(which, yes.right, no.right), hn::IfThenElse(which, yes.depth, no.depth)};
+}
+
+HWY_INLINE Point optimum(const Profile& profile, bool core) {
+  const V zero = hn::Zero(D());
+  const auto with_margin = [](V residual) HWY_ATTR { return hn::MulAdd(residual, set(4e-6f), hn::Add(residual, set(1e-10f))); };
+  const Point first = profile.at(zero, zero), last = profile.at(set(1), zero);
+  const auto whole_if_equal = [&](const Point& found) HWY_ATTR {
+    const Point one = choose(hn::Le(last.residual, with_margin(found.residual)), last, found);
+    return choose(hn::Le(first.residual, with_margin(one.residual)), first, one);
+  };
+  Point best = better(first, last);
+  // No lane's answer depends on another's: those that are done keep theirs while the others go on.
+  M done = hn::Lt(set(1), zero);
+  if (!core) {
+    V least;
+    const V m = profile.free_metal(&least);
+    best = better(profile.at(m, hn::Mul(set(core_k), hn::Sub(set(1), m))), best);
+    done = hn::Le(best.residual, with_margin(least));
+    if (hn::AllTrue(D(), done)) return whole_if_equal(best);
+  }
+  const auto consider = [&](const Point& point, M lanes) HWY_ATTR {
+    best = choose(hn::AndNot(done, hn::And(lanes, hn::Lt(point.residual, best.residual))), point, best);
+  };
+  const M every = hn::Ge(set(1), zero);
+  const V unlikely = set(1e30f);
+  Cell deepest{first, last, unlikely}, second = deepest;
+  Point before = first;
+  for (int i = 1; i <= cells; ++i) {
+    const Point here = i == cells ? last : profile.at(set(static_cast<float>(i) / cells), before.k);
+    consider(here, every);
+    const Valley valley = valley_between(before, here);
+    const Cell cell{before, here, hn::IfThenElse(valley.exists, valley.residual, unlikely)};
+    const M ahead = hn::Lt(cell.depth, deepest.depth);
+    second = choose(ahead, deepest, choose(hn::Lt(cell.depth, second.depth), cell, second));
+    deepest = choose(ahead, cell, deepest);
+    before = here;
+  }
+  const auto refine = [&](Cell cell, int times, M lanes) HWY_ATTR {
+    for (int i = 0; i < times; ++i) {
+      const Valley valley = valley_between(cell.left, cell.right);
+      const Point here = profile.at(valley.m, hn::Mul(set(0.5f), hn::Add(cell.left.k, cell.right.k)));
+      consider(here, lanes);
+      const M falling = hn::Lt(here.slope, zero);
+      cell.left = choose(falling, here, cell.left), cell.right = choose(falling, cell.right, here);
+    }
+  };
+  refine(deepest, refinements, every);
+  // A cubic's depth is a guess: the second goes on if it may be lower.
+  const M doubtful = hn::AndNot(done, hn::Lt(hn::Mul(second.depth, set(0.9f)), best.residual));
+  if (!hn::AllFalse(D(), doubtful)) refine(second, second_refinements, doubtful);
+  return whole_if_equal(best);
+}
+
+// One vector of pairs, interleaved r0 g0 b0 r1 ...
+HWY_INLINE void fit_one(const float* diffuse, const float* f0, bool core, float* base, float* metal, float* reflectance) {
+  const D tag;
+  V d[3], f[3], b[3];
+  hn::LoadInterleaved3(tag, diffuse, d[0], d[1], d[2]);
+  hn::LoadInterleaved3(tag, f0, f[0], f[1], f[2]);
+  for (V* x : {d, f})
+    for (int c = 0; c < 3; ++c) x[c] = hn::IfThenElseZero(hn::Eq(x[c], x[c]), held_within(set(-65504), x[c], set(65504)));
+  const Profile profile(d, f, core);
+  const Point best = optimum(profile, core);
+  profile.base(best.m, best.k, b);
+  hn::StoreInterleaved3(b[0], b[1], b[2], tag, base);
+  hn::StoreU(best.m, tag, metal);
+  const V s = hn::Sub(set(1), best.m), share = hn::Div(best.k, hn::Max(hn::Mul(set(largest_k), s), set(1e-20f)));
+  const V free = hn::Min(hn::Sqrt(share), set(1));
+  hn::StoreU(hn::IfThenElse(hn::Gt(s, hn::Zero(tag)), core ? set(0.5f) : free, set(0.5f)), tag, reflectance);
+}
+
+void FitDisney(const float* diffuse, const float* f0, bool core, std::size_t count, float* base, float* metal, float* reflectance) {
+  const std::size_t lanes = hn::Lanes(D());
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) fit_one(diffuse + 3 * i, f0 + 3 * i, core, base + 3 * i, metal + i, reflectance + i);
+  if (i == count) return;
+  constexpr std::size_t most = hn::MaxLanes(D());
+  HWY_ALIGN float last_d[3 * most] = {}, last_f[3 * most] = {}, last_b[3 * most], last_m[most], last_r[most];
+  std::copy(diffuse + 3 * i, diffuse + 3 * count, last_d);
+  std::copy(f0 + 3 * i, f0 + 3 * count, last_f);
+  fit_one(last_d, last_f, core, last_b, last_m, last_r);
+  std::copy(last_b, last_b + 3 * (count - i), base + 3 * i);
+  std::copy(last_m, last_m + (count - i), metal + i);
+  std::copy(last_r, last_r + (count - i), reflectance + i);
+}
+
+}  // namespace
+}  // namespace etendue::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace etendue {
+namespace {
+HWY_EXPORT(FitDisney);
+}
+
+Status fit_disney(std::span<const Vec3f> diffuse, std::span<const Vec3f> f0, DisneyColumns out, DielectricF0 dielectric) {
+  const std::size_t count = diffuse.size();
+  for (const std::size_t size : {f0.size(), out.base_colour.size(), out.metal.size(), out.reflectance.size()})
+    if (size != count) return batch_sizes_differ(count, size);
+  if (count == 0) return Done{};
+  HWY_DYNAMIC_DISPATCH(FitDisney)
+  (&diffuse[0].x, &f0[0].x, dielectric == DielectricF0::core, count, &out.base_colour[0].x, out.metal.data(), out.reflectance.data());
+  return Done{};
+}
+
+}  // namespace etendue
+#endif  // HWY_ONCE
