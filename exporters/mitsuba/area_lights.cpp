@@ -34,8 +34,19 @@ void add_surface(Writer& writer, const LightEntry& entry, pugi::xml_node shape) 
   }
 }
 
+// An emitter without its radiance. The camera sees a light without its window; its rays begin at the near plane, at a tenth of the
+// tolerance (write_sensor()).
+pugi::xml_node add_area_emitter(Writer& writer, const LightEntry& entry, pugi::xml_node parent) {
+  if (writer.parts == MitsubaParts::built_in || !has_window(entry.light)) return add_plugin(parent, "emitter", "area");
+  pugi::xml_node emitter = add_plugin(parent, "emitter", "etendue_area");
+  add_point(emitter, "eye", writer.eye);
+  add_float(emitter, "eye_radius", 1e-4 * writer.extent_m);
+  add_window(emitter, entry.light);
+  return emitter;
+}
+
 void add_emission(Writer& writer, const LightEntry& entry, pugi::xml_node shape, const Rgb& radiance) {
-  if (entry.lit) add_rgb(add_plugin(shape, "emitter", "area"), "radiance", radiance);
+  if (entry.lit) add_rgb(add_area_emitter(writer, entry, shape), "radiance", radiance);
   add_surface(writer, entry, shape);
 }
 
@@ -65,7 +76,7 @@ Status write_mesh_body(Writer& writer, const LightEntry& entry, Mesh mesh, const
   const bool textured = entry.lit && light.emission.texture && !mesh.uvs.empty();
   if (textured) {
     // The emitter is written first, because it moves the texture coordinates.
-    emitter = add_plugin(writer.root, "emitter", "area");
+    emitter = add_area_emitter(writer, entry, writer.root);
     if (Status s = add_textured_radiance(writer, emitter, mesh, *light.emission.texture, radiance, name_for_losses(light)); !s) return s;
   }
   Result<pugi::xml_node> shape = add_mesh_shape(writer, entry.id, mesh, light.transform, true);

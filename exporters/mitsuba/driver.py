@@ -89,7 +89,7 @@ def main(request):
     if not request["variant"].startswith("scalar"):
         # Their files stand before this one.
         register_surface_bsdfs(mi)  # noqa: F821
-        register_web_emitter(mi)  # noqa: F821
+        register_emitters(mi)  # noqa: F821
     jobs = request["jobs"]
     progress = Progress(sum(job["samples"] * job["seeds"] for job in jobs))
     for index, job in enumerate(jobs):

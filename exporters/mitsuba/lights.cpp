@@ -24,17 +24,19 @@ bool has_body(const Shape& shape) {
   return !is_punctual(shape) && !std::holds_alternative<DistantShape>(shape) && !std::holds_alternative<EnvironmentShape>(shape);
 }
 
+eval::Window window_of(const Light& light) { return {light.falloff, light.range_m.value_or(0)}; }
+
 // Ours times w(d); Mitsuba's 1.
 void report_window(Writer& writer, const Light& light) {
-  const eval::Window window{light.falloff, light.range_m.value_or(0)};
-  if (!eval::is_window(window)) return;
+  if (!has_window(light) || writer.parts == MitsubaParts::with_plugins) return;
+  const eval::Window window = window_of(light);
   const double at_m = light.range_m ? *light.range_m / 2 : 1, w = eval::window_at(window, at_m);
   const std::string more = w > 0 ? fmt::format("{:+.1f} % at {} m", 100 * (1 / w - 1), text_of(at_m)) : "light at every distance";
   if (light.range_m)
     writer.losses.add(name_for_losses(light) + ": range " + text_of(*light.range_m) + " m",
-                      "no window: " + more + ", and light beyond the range, where there should be none");
+                      "no window: " + more + ", and light beyond the range, where there should be none" + exact_with_plugins);
   else
-    writer.losses.add(name_for_losses(light) + ": falloff " + name_of(light.falloff), "inverse square: " + more);
+    writer.losses.add(name_for_losses(light) + ": falloff " + name_of(light.falloff), "inverse square: " + more + exact_with_plugins);
 }
 
 void report_losses(Writer& writer, const Light& light) {
@@ -86,6 +88,35 @@ Status check_environments(const Scene& scene, const ExportOptions& options) {
 }  // namespace
 
 std::string name_for_losses(const Light& light) { return "light '" + light.name + "'"; }
+
+bool has_window(const Light& light) {
+  return eval::is_window(window_of(light)) && !std::holds_alternative<DistantShape>(light.shape) &&
+         !std::holds_alternative<EnvironmentShape>(light.shape);
+}
+
+void add_window(pugi::xml_node emitter, const Light& light) {
+  if (!has_window(light)) return;
+  const auto name = [](Falloff::Law law) -> const char* {
+    switch (law) {
+      case Falloff::Law::power:
+        return "power";
+      case Falloff::Law::power_squared:
+        return "power_squared";
+      case Falloff::Law::smoothstep:
+        return "smoothstep";
+      case Falloff::Law::scale_bias:
+        return "scale_bias";
+      case Falloff::Law::karis:
+        return "karis";
+      case Falloff::Law::inverse_square:
+        break;
+    }
+    return "inverse_square";
+  };
+  add_string(emitter, "falloff", name(light.falloff.law));
+  add_float(emitter, "exponent", light.falloff.exponent);
+  add_float(emitter, "range", light.range_m.value_or(0));
+}
 
 Status write_lights(Writer& writer) {
   const Scene& scene = writer.scene;

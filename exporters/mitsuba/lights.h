@@ -17,6 +17,10 @@ struct LightEntry {
   Resolved resolved;  // only if lit
 };
 std::string name_for_losses(const Light& light);
+// Whether its light is multiplied by something of the distance: distant lights and environments have none.
+bool has_window(const Light& light);
+// What an emitter of ours reads of it.
+void add_window(pugi::xml_node emitter, const Light& light);
 
 // punctual.cpp: emitters without a shape, and the sun's far disk. Only called for lights that are lit.
 Status write_point(Writer& writer, const LightEntry& entry);

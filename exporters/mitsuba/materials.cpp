@@ -131,21 +131,22 @@ Status add_model(Writer& writer, pugi::xml_node parent, const Material& material
 
 // What the built-ins make of a model that plugins show as it is.
 void report_twin(Writer& writer, const Material& material) {
+  const auto lost = [&](const char* model, const char* effect) {
+    writer.losses.add(name_for_losses(material) + model, std::string(effect) + exact_with_plugins);
+  };
   if (std::holds_alternative<Standard>(material.model)) {
-    writer.losses.add(
-        name_for_losses(material) + ": Frostbite's standard model",
-        "`principled`: dielectrics brighter by a factor of 1.11 (roughness .25) to 1.50 (roughness 1) in albedo; metals within .1 % "
-        "at roughness .3, up to 35 % darker at roughness 1 and grazing angles");
+    lost(": Frostbite's standard model",
+         "`principled`: dielectrics brighter by a factor of 1.11 (roughness .25) to 1.50 (roughness 1) in albedo; metals within .1 % "
+         "at roughness .3, up to 35 % darker at roughness 1 and grazing angles");
   } else if (std::holds_alternative<MetalRough>(material.model)) {
-    writer.losses.add(name_for_losses(material) + ": glTF's metallic-roughness model",
-                      "`principled`: brighter by a factor of 1.03 to 1.29 in albedo");
+    lost(": glTF's metallic-roughness model", "`principled`: brighter by a factor of 1.03 to 1.29 in albedo");
   } else if (std::holds_alternative<SpecularGlossiness>(material.model)) {
     const char* effect =
         material.fallback ? "the file's metallic-roughness fallback instead, as `principled`"
         : material.specular_gloss_texture
             ? "`principled`, a dielectric of F0 .04 and roughness .5: the texture of specular colour and glossiness is left out"
             : "the nearest `principled`: coloured reflections of dielectrics turn grey or metallic";
-    writer.losses.add(name_for_losses(material) + ": glTF's specular-glossiness model", effect);
+    lost(": glTF's specular-glossiness model", effect);
   }
 }
 

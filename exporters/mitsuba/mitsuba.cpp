@@ -122,7 +122,7 @@ class SceneFiles {
     pugi::xml_document document;
     pugi::xml_node root = document.append_child("scene");
     root.append_attribute("version") = "3.0.0";
-    Writer writer{scene_, options, assets_, root, losses, bounds_, parts_, extent_of(bounds_, camera_)};
+    Writer writer{scene_, options, assets_, root, losses, bounds_, camera_.transform.translation, parts_, extent_of(bounds_, camera_)};
     if (Status s = write_scene(writer, camera_); !s) return s.error();
     std::ostringstream text;
     document.save(text, "  ");

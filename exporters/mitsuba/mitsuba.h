@@ -10,8 +10,8 @@
 
 namespace etendue {
 
-// With plugins (which run_mitsuba() brings) photometric webs and the models of Standard, MetalRough and SpecularGlossiness are written as
-// they are, for them.
+// With plugins (which run_mitsuba() brings) spots, frusta, photometric webs, windows and the models of Standard, MetalRough and
+// SpecularGlossiness are written as they are, for them.
 std::unique_ptr<Exporter> make_mitsuba_exporter(MitsubaParts parts = MitsubaParts::built_in);
 
 // The scene as make_mitsuba_exporter() writes it, and beside it NAME_light_I.xml for each light I of options.lit (all, if it is empty), in

@@ -23,7 +23,7 @@ std::string numbers(const std::vector<double>& values) {
 
 bool mirrors(WebSymmetry s, WebSymmetry one) { return s == one || s == WebSymmetry::lateral_and_vertical; }
 
-// web_emitter.py says what its parameters mean.
+// emitters.py says what its parameters mean.
 Status write_plugin(Writer& writer, const LightEntry& entry, const IntensityWeb& web, const std::optional<SpotShape>& cone,
                     const Rgb& factor) {
   const std::vector<double>& polar = web.polar().nodes();
@@ -52,6 +52,7 @@ Status write_plugin(Writer& writer, const LightEntry& entry, const IntensityWeb&
   add_boolean(emitter, "mirror_azimuth", mirrors(web.symmetry(), type_a ? WebSymmetry::lateral : WebSymmetry::vertical));
   add_float(emitter, "cone_inner", cone ? cone->inner_rad * 180 / pi : 180);
   add_float(emitter, "cone_outer", cone ? cone->outer_rad * 180 / pi : 180);
+  add_window(emitter, entry.light);
   add_matrix(emitter, "to_world", entry.light.transform.rigid());
   return Done{};
 }

@@ -50,6 +50,15 @@ Status write_wide_spot(Writer& writer, const LightEntry& entry, const SpotShape&
   return Done{};
 }
 
+// Our own emitter (emitters.py), without a cone or a pyramid yet.
+pugi::xml_node add_lamp(Writer& writer, const LightEntry& entry) {
+  pugi::xml_node lamp = add_plugin(writer.root, "emitter", "etendue_lamp", entry.id);
+  add_rgb(lamp, "intensity", entry.resolved.rgb);
+  add_window(lamp, entry.light);
+  add_matrix(lamp, "to_world", entry.light.transform.rigid());
+  return lamp;
+}
+
 }  // namespace
 
 // The squared linear ramp in the cosine between the outer and the inner cone.
@@ -94,6 +103,10 @@ pugi::xml_node add_projector(Writer& writer, const std::string& id, const std::s
 }
 
 Status write_point(Writer& writer, const LightEntry& entry) {
+  if (writer.parts == MitsubaParts::with_plugins && has_window(entry.light)) {
+    add_lamp(writer, entry);
+    return Done{};
+  }
   pugi::xml_node emitter = add_plugin(writer.root, "emitter", "point", entry.id);
   add_point(emitter, "position", entry.light.transform.translation);
   add_rgb(emitter, "intensity", entry.resolved.rgb);
@@ -103,6 +116,12 @@ Status write_point(Writer& writer, const LightEntry& entry) {
 // Mitsuba's own ramp is linear in the angle; it is narrowed to nothing, and a texture over the plane ahead has ours:
 // u = 1/2 + x / (2 tan outer), v = 1/2 + y / (2 tan outer). The pattern is round, so its orientation does not matter.
 Status write_spot(Writer& writer, const LightEntry& entry, const SpotShape& spot) {
+  if (writer.parts == MitsubaParts::with_plugins) {
+    pugi::xml_node lamp = add_lamp(writer, entry);
+    add_float(lamp, "cone_inner", spot.inner_rad * 180 / pi);
+    add_float(lamp, "cone_outer", spot.outer_rad * 180 / pi);
+    return Done{};
+  }
   if (spot.outer_rad > widest_spot_rad) return write_wide_spot(writer, entry, spot);
   const bool sharp = spot.outer_rad - spot.inner_rad < 1e-9;
   std::string file;
@@ -136,6 +155,12 @@ Status write_spot(Writer& writer, const LightEntry& entry, const SpotShape& spot
 // The projector takes its height from the picture's shape, so width : height has to be tan(width / 2) : tan(height / 2): the best fraction
 // with up to 1024 texels a side, off by about 1e-6.
 Status write_frustum(Writer& writer, const LightEntry& entry, const FrustumShape& frustum) {
+  if (writer.parts == MitsubaParts::with_plugins) {
+    pugi::xml_node lamp = add_lamp(writer, entry);
+    add_float(lamp, "width", frustum.width_rad * 180 / pi);
+    add_float(lamp, "height", frustum.height_rad * 180 / pi);
+    return Done{};
+  }
   const double x_extent = std::tan(frustum.width_rad / 2), y_extent = std::tan(frustum.height_rad / 2);
   const double ratio = std::max(x_extent, y_extent) / std::min(x_extent, y_extent);
   constexpr std::uint32_t most = 1024, fewest = 256;

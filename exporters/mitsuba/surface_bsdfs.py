@@ -1,11 +1,11 @@
-"""Surface models that Mitsuba lacks, as BSDFs for the vectorised variants. Each is a diffuse lobe and round GGX facets with Schlick's Fresnel.
+"""Surface models that Mitsuba lacks, as BSDFs for the vectorised variants: a diffuse lobe and round GGX facets with Schlick's Fresnel.
 
 "etendue_standard", Frostbite's (Lagarde and de Rousiers 2014, 3.1, 3.2): `base_colour`, `metal`, `roughness`, `reflectance` (a number).
 "etendue_metal_rough", glTF 2.0's (appendix B): `base_colour`, `metallic`, `roughness`, `ior` (a number).
 "etendue_specular_glossiness", glTF's archived extension: `diffuse`, `specular`, `glossiness`.
 
-All but the numbers may be textures. Front side alone: `twosided` gives the other one. Directions are chosen among the facets that the view sees (Heitz 2018)
-or by the cosine.
+All but the numbers may be textures. Front side alone: `twosided` gives the other one. Directions are chosen among the facets that the
+view sees (Heitz 2018) or by the cosine.
 """
 
 
@@ -22,7 +22,7 @@ def register_surface_bsdfs(mi):
         return (colour.x + colour.y + colour.z) / 3
 
     class Ggx:
-        """Facets as one view sees them. D in a form that keeps its digits at an alpha of 1e-4: the sine of the half vector comes from its components."""
+        """Facets as one view sees them. The sine of the half vector comes from its components: D keeps its digits at an alpha of 1e-4."""
 
         def __init__(self, roughness, correlated, view):
             self.alpha = dr.maximum(dr.square(roughness), least_alpha)
@@ -51,7 +51,8 @@ def register_surface_bsdfs(mi):
         def sample(self, u):
             stretched = dr.normalize(mi.Vector3f(self.alpha * self.view.x, self.alpha * self.view.y, self.view.z))
             across = dr.square(stretched.x) + dr.square(stretched.y)
-            t1 = dr.select(across > 0, mi.Vector3f(-stretched.y, stretched.x, 0) * dr.rsqrt(dr.maximum(across, 1e-30)), mi.Vector3f(1, 0, 0))
+            t1 = mi.Vector3f(-stretched.y, stretched.x, 0) * dr.rsqrt(dr.maximum(across, 1e-30))
+            t1 = dr.select(across > 0, t1, mi.Vector3f(1, 0, 0))
             t2 = dr.cross(stretched, t1)
             r, (sin, cos) = dr.sqrt(u.x), dr.sincos(2 * dr.pi * u.y)
             p1, s = r * cos, 0.5 * (1 + stretched.z)
@@ -64,11 +65,12 @@ def register_surface_bsdfs(mi):
     class Surface(mi.BSDF):
         def __init__(self, props):
             super().__init__(props)
-            glossy, diffuse = (kind | mi.BSDFFlags.FrontSide for kind in (mi.BSDFFlags.GlossyReflection, mi.BSDFFlags.DiffuseReflection))
+            kinds, front = mi.BSDFFlags, mi.BSDFFlags.FrontSide
+            glossy, diffuse = kinds.GlossyReflection | front, kinds.DiffuseReflection | front
             self.m_components, self.m_flags = [glossy, diffuse], glossy | diffuse
 
         def mixture(self, si, active):
-            """The lobes at a place, the facets, and the share of directions that are chosen among them: by what each reflects to the view."""
+            """The lobes at a place, the facets, and the share of directions chosen among them: by what each reflects to the view."""
             lobes = self.lobes(si, active)
             facets = Ggx(lobes.roughness, self.correlated, si.wi)
             weight = schlick_weight(si.wi.z)
@@ -83,7 +85,8 @@ def register_surface_bsdfs(mi):
             cosine_vh = 0.5 * dr.norm(si.wi + light)
             weight, density = schlick_weight(cosine_vh), facets.density(light)
             fresnel = lobes.f0 * (1 - weight) + lobes.f90 * weight
-            value = self.diffuse(lobes, si.wi.z, light.z, cosine_vh, weight) * (light.z / dr.pi) + fresnel * (density * facets.masked(light.z) * light.z)
+            diffuse = self.diffuse(lobes, si.wi.z, light.z, cosine_vh, weight)
+            value = diffuse * (light.z / dr.pi) + fresnel * (density * facets.masked(light.z) * light.z)
             pdf = share * facets.pdf(density) + (1 - share) * light.z / dr.pi
             return dr.select(active, mi.Spectrum(value), 0), dr.select(active, pdf, 0)
 
@@ -105,7 +108,8 @@ def register_surface_bsdfs(mi):
             value, bs.pdf = self.value_and_pdf(si, bs.wo, mixture, active)
             bs.eta = 1
             bs.sampled_component = dr.select(glossy, mi.UInt32(0), mi.UInt32(1))
-            bs.sampled_type = dr.select(glossy, mi.UInt32(+mi.BSDFFlags.GlossyReflection), mi.UInt32(+mi.BSDFFlags.DiffuseReflection))
+            kinds = (mi.UInt32(+kind) for kind in (mi.BSDFFlags.GlossyReflection, mi.BSDFFlags.DiffuseReflection))
+            bs.sampled_type = dr.select(glossy, *kinds)
             return bs, dr.select(bs.pdf > 0, value / bs.pdf, 0)
 
         def to_string(self):
@@ -116,7 +120,7 @@ def register_surface_bsdfs(mi):
             self.albedo, self.f0, self.f90, self.roughness = albedo, f0, f90, roughness
 
     class Standard(Surface):
-        """f90 = min(50 f0, 1), f0 a mean of .33 for a third each. Disney's diffuse with F90 = .5 r + 2 r (v.h)^2, times lerp(1, 1 / 1.51, r)."""
+        """f90 = min(50 dot(f0, .33), 1). Disney's diffuse with F90 = .5 r + 2 r (v.h)^2, times lerp(1, 1 / 1.51, r)."""
 
         correlated = True
 
@@ -126,7 +130,8 @@ def register_surface_bsdfs(mi):
             self.f0 = 0.16 * props["reflectance"] ** 2
 
         def lobes(self, si, active):
-            base, metal, roughness = self.base_colour.eval(si, active), self.metal.eval_1(si, active), self.roughness.eval_1(si, active)
+            base = self.base_colour.eval(si, active)
+            metal, roughness = self.metal.eval_1(si, active), self.roughness.eval_1(si, active)
             f0 = self.f0 * (1 - metal) + base * metal
             f90 = dr.minimum(50 * 0.33 * (f0.x + f0.y + f0.z), 1)
             return Lobes(base * ((1 - metal) * (1 + roughness * (1 / 1.51 - 1))), f0, f90, roughness)
@@ -142,12 +147,14 @@ def register_surface_bsdfs(mi):
 
         def __init__(self, props):
             super().__init__(props)
-            self.base_colour, self.metallic, self.roughness = (props.get_texture(name) for name in ("base_colour", "metallic", "roughness"))
+            self.base_colour, self.metallic = props.get_texture("base_colour"), props.get_texture("metallic")
+            self.roughness = props.get_texture("roughness")
             self.f0 = ((props["ior"] - 1) / (props["ior"] + 1)) ** 2
 
         def lobes(self, si, active):
             base, metallic = self.base_colour.eval(si, active), self.metallic.eval_1(si, active)
-            return Lobes(base * (1 - metallic), self.f0 * (1 - metallic) + base * metallic, mi.Float(1), self.roughness.eval_1(si, active))
+            f0 = self.f0 * (1 - metallic) + base * metallic
+            return Lobes(base * (1 - metallic), f0, mi.Float(1), self.roughness.eval_1(si, active))
 
         def diffuse(self, lobes, cosine_view, cosine_light, cosine_vh, weight):
             return lobes.albedo * ((1 - self.f0) * (1 - weight))

@@ -18,6 +18,7 @@ struct Writer {
   pugi::xml_node root;
   LossReport& losses;
   Bounds bounds;  // of the scene
+  Vec3d eye;      // of the camera
   MitsubaParts parts;
   double extent_m;  // length that the scene, its camera and the origin fit into: floats are as coarse as 6e-8 of it
 };
@@ -39,6 +40,9 @@ Status write_lights(Writer& writer);
 // A <shape> of `mesh`, or its id-less kin, to which the caller adds a <bsdf> or <emitter>.
 Result<pugi::xml_node> add_mesh_shape(Writer& writer, const std::string& id, const Mesh& mesh, const Transform& to_world,
                                       bool face_normals);
+
+// Ends the effect of a loss that MitsubaParts::with_plugins has not.
+inline constexpr const char* exact_with_plugins = " (none with validate --plugins)";
 
 Error unsupported(std::string text, const std::string& source);
 

@@ -64,8 +64,8 @@ std::optional<fs::path> cache_folder(const Options& options) {
 
 // Whether Mitsuba's scene has other materials or distances than the asset: then our picture of the asset itself is made as well.
 bool differs_as_authored(const Scene& scene, MitsubaParts parts) {
+  if (parts == MitsubaParts::with_plugins) return false;
   for (const Material& material : scene.materials) {
-    if (parts == MitsubaParts::with_plugins) break;
     if (std::holds_alternative<MetalRough>(material.model) || std::holds_alternative<Standard>(material.model) ||
         std::holds_alternative<SpecularGlossiness>(material.model))
       return true;
@@ -310,7 +310,8 @@ void add_validate(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--mute", options->mute, "All but these lights");
   verb->add_option("--mitsuba", options->mitsuba, "The mitsuba command, its Python, or its virtual environment");
   verb->add_option("--cache", options->cache, "Folder for Mitsuba's pictures (default: the user's cache)");
-  verb->add_flag("--plugins", options->plugins, "Materials and photometric webs in Mitsuba as they are, by plugins of our own");
+  verb->add_flag("--plugins", options->plugins,
+                 "Materials, windows of ranges, spots and photometric webs in Mitsuba as they are, by plugins of our own");
   verb->add_flag("--no-cache", options->no_cache, "Render all of Mitsuba's pictures anew");
   add_shadows(*verb, options->shadows);
   verb->add_option("--threads", options->threads, "Of our renderer; 0: every core")->capture_default_str();

@@ -3,8 +3,9 @@
 
     DRJIT_LIBLLVM_PATH=... .venv/bin/python tests/mitsuba/plugin_values.py PLUGINS MODEL MATERIALS DIRECTIONS SEED
 
-PLUGINS is exporters/mitsuba/surface_bsdfs.py. A line: the model's parameters (colours as three numbers); the view and the light, float32 written out
-in full; the three channels; the density. Half of the light directions are uniform over the hemisphere, half are chosen by the BSDF.
+PLUGINS is exporters/mitsuba/surface_bsdfs.py. A line: the model's parameters (colours as three numbers); the view and the light,
+float32 written out in full; the three channels; the density. Half of the light directions are uniform over the hemisphere, half are
+chosen by the BSDF.
 """
 import runpy
 import sys

@@ -1,4 +1,4 @@
-// What Mitsuba renders with, and what becomes of a material there.
+// What Mitsuba renders with, and what becomes of a material there. With our plugins windows of lights stay as well.
 #pragma once
 
 #include "etendue/material.h"

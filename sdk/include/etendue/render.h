@@ -29,7 +29,7 @@ struct RenderOptions {
   std::vector<std::uint32_t> lit;  // lights that emit, by index; empty: all. The others keep their shapes and are black.
   // What the Mitsuba exporter writes: materials as mitsuba_twin() has them, no windows of ranges, every area light visible.
   bool mitsuba_model = false;
-  MitsubaParts mitsuba_parts = MitsubaParts::built_in;  // that the exporter writes for
+  MitsubaParts mitsuba_parts = MitsubaParts::built_in;  // that the exporter writes for; with plugins windows stay
   // What need not be resolved: the relative noise (standard deviation over value) per pixel of the picture that ours is compared
   // with, for one light. Shading is computed to a fiftieth of it, shadows to a fifth. 0.01 suits a picture to look at.
   double expected_noise = 0.01;

@@ -169,7 +169,7 @@ Status Stage::add_light(const Scene& scene, std::uint32_t index, bool lit, const
   StageLight staged;
   staged.index = index;
   staged.emitter = std::move(*made);
-  if (options.mitsuba_model) staged.emitter.window = {};
+  if (options.mitsuba_model && options.mitsuba_parts == MitsubaParts::built_in) staged.emitter.window = {};
   staged.as_seen = staged.emitter;
   staged.as_seen.window = {};
   staged.delta = is_delta(staged.emitter.shape);
