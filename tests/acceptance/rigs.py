@@ -7,6 +7,10 @@ import struct
 FLOOR = {"lambert": {"name": "floor", "model": "lambert", "base_colour": [0.6, 0.5, 0.4]}}
 
 
+def standard(smoothness, metal, base_colour=(0.8, 0.5, 0.2)):
+    return {"name": "floor", "model": "standard", "base_colour": list(base_colour), "metal": metal, "smoothness": smoothness}
+
+
 def conductor(alpha):
     return {"name": "floor", "model": "conductor", "f0": [0.9, 0.7, 0.4], "alpha": alpha}
 
@@ -70,6 +74,18 @@ PLACES = {
 }
 SUN_DIRECTIONS = {"near": (0.1, -1.0, 0.1), "medium": (-0.7, -1.0, -0.3), "grazing": (1.0, -0.12, 0.2)}
 KINDS = [*SHAPES, "directional", "sun", "environment"]
+# Those that Mitsuba shows within .2 % only of the exporter's plugins, or not as what they are.
+MORE_SHAPES = {"line": {"type": "line", "length": "0.8 m"}, "photometric": {"type": "photometric", "file": "lamp.ies"}}
+
+
+def photometric_file(path):
+    """A type C web in steps of 10 and 30 degrees: most light ahead, more to one side."""
+    polar, azimuth = range(0, 181, 10), range(0, 361, 30)
+    candelas = [[200 + 800 * max(0, math.cos(math.radians(p))) ** 2 * (1 + 0.5 * math.cos(math.radians(a))) for p in polar] for a in azimuth]
+    rows = [" ".join("%.3f" % c for c in plane) for plane in candelas]
+    head = ["IESNA:LM-63-2002", "[TEST] a lopsided lamp", "[TESTLAB] -", "[ISSUEDATE] -", "[MANUFAC] -", "TILT=NONE",
+            "1 -1 1 %d %d 1 2 0 0 0" % (len(polar), len(azimuth)), "1 1 100", " ".join(map(str, polar)), " ".join(map(str, azimuth))]
+    path.write_text("\n".join(head + rows) + "\n")
 
 
 def light(kind, place, folder):
@@ -82,7 +98,9 @@ def light(kind, place, folder):
         blob_environment(pathlib.Path(folder) / name, [-c for c in SUN_DIRECTIONS[place]])
         return {"name": kind, "shape": {"type": "environment", "file": name}}
     position, direction = PLACES[place]
-    entry = {"name": kind, "shape": SHAPES[kind], "emission": {"flux": "1500 lm"}, "colour": {"temperature": "3000 K"},
+    if kind == "photometric":
+        photometric_file(pathlib.Path(folder) / "lamp.ies")
+    entry = {"name": kind, "shape": {**SHAPES, **MORE_SHAPES}[kind], "emission": {"flux": "1500 lm"}, "colour": {"temperature": "3000 K"},
              "translation": list(position), "rotation": towards(direction)}
     if kind == "rect-two-sided":
         entry["two_sided"] = True
@@ -91,7 +109,8 @@ def light(kind, place, folder):
 
 def camera_for(place, material):
     """Matte floors from above; metal from opposite the light, so that its reflection is in the picture."""
-    if material["model"] == "conductor" and place == "grazing":
+    metal = material["model"] == "conductor" or material.get("metal", 0) > 0.5
+    if metal and place == "grazing":
         return {"position": [2.6, 0.9, 0.4], "target": [0, 0, 0], "vfov": "42 deg"}
     return {"position": [0, 2.2, 3.2], "target": [0, 0.0, 0.1], "vfov": "42 deg"}
 
