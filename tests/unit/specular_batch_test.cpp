@@ -104,7 +104,7 @@ TEST(SpecularBatch, IsTheMethodInDouble) {
 // A round light's outline stays a cone over an ellipse, so that its form is as exact in floats as digits allow.
 TEST(SpecularBatch, OfRoundLightsIsTheTransformedCosineInDouble) {
   on_each_instruction_set([] {
-    for (const char* name : {"ltc", "ltc-two-lobes"}) {
+    for (const char* name : {"ltc", "ltc-two-lobes", "ltc-two-caps"}) {
       const SpecularMethod& method = *find_specular_method(name);
       Random random(6);
       double errors = 0, sum = 0;
@@ -138,7 +138,7 @@ TEST(SpecularBatch, OfRoundLightsIsTheTransformedCosineInDouble) {
 TEST(SpecularBatch, OfRoundLightsIsFiniteLight) {
   on_each_instruction_set([] {
     Random random(10);
-    for (const char* name : {"ltc", "ltc-two-lobes"}) {
+    for (const char* name : {"ltc", "ltc-two-lobes", "ltc-two-caps"}) {
       for (const double size : {0.0, 1e-6, 1.0, 1e5}) {
         Emitter disk = white(DiskEmitter{{}, {0, 0, 1}, {1, 0, 0}, size});
         disk.two_sided = true;
@@ -284,6 +284,9 @@ TEST(SpecularBatch, RefusesWhatItHasNoVectorsFor) {
   EXPECT_EQ(batch->shares(views.points(), one, two, 0).error().code, "BATCH_SIZES_DIFFER");
   light.window = {Falloff::gltf, 3};
   EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc, light).error().code, "METHOD_SHAPE");
+  EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc_two_caps, white(rectangle({0, 0, 2}, {1, 0, 0}, {0, -1, 0}, 1, 1))).error().code,
+            "METHOD_SHAPE");
+  EXPECT_EQ(SpecularBatch::of(SpecularRule::moments, white(DiskEmitter{{}, {0, 0, 1}, {1, 0, 0}, 1})).error().code, "METHOD_SHAPE");
   EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc, white(TubeEmitter{{}, {1, 0, 0}, 1, Caps::round})).error().code, "METHOD_SHAPE");
   EXPECT_EQ(SpecularBatch::of(SpecularRule::ltc, white(PunctualEmitter{{}, {}, {1, 1, 1}, PointShape{}})).error().code, "METHOD_SHAPE");
 }

@@ -21,14 +21,14 @@ struct SpecularPoints {
   std::span<const float> vx, vy, vz, alpha;
 };
 
-enum class SpecularRule { ltc, ltc_two_lobes, moments };
+enum class SpecularRule { ltc, ltc_two_lobes, ltc_two_caps, moments };
 
 class SpecularBatch {
  public:
-  // `ltc`, `ltc-two-lobes` and `moments`; nothing for other names.
+  // `ltc`, `ltc-two-lobes`, `ltc-two-caps` and `moments`; nothing for other names.
   static std::optional<SpecularRule> rule_named(std::string_view method);
-  // Errors: METHOD_SHAPE: the rule has no vectors for the light: uniform rectangles and spheres, and by transformed
-  // cosines disks, without a window.
+  // Errors: METHOD_SHAPE: the rule has no vectors for the light: rectangles (not by caps), spheres (by all) and
+  // disks (not by moments), uniform and without a window.
   static Result<SpecularBatch> of(SpecularRule rule, const Emitter& emitter);
 
   // Of each point the luminance for a light of 1 cd/m2, as factors on f0 and on f90: what the method gives in double, but for roundings of

@@ -59,6 +59,30 @@ const LtcTable& ltc_table() {
 
 namespace {
 
+// The cap of directions whose integral is that of a light's.
+class Cap {
+ public:
+  explicit Cap(const Vec3d& integral) {
+    const double length_of = length(integral);
+    if (length_of > 0) axis_ = integral / length_of, sine_ = std::sqrt(std::min(length_of / pi, 1.0));
+  }
+  // The integral of the directions over what of it is above a plane, along z. The rim's part is half b x b' over the angle 2 phi, the
+  // plane's the angle 2 psi that the cap takes of it.
+  double above(const Vec3d& n) const {
+    const double up = dot(n, axis_), whole = pi * sine_ * sine_ * axis_.z;
+    if (up >= sine_) return whole;
+    if (up <= -sine_) return 0;
+    const double cosine = std::sqrt((1 - sine_) * (1 + sine_)), half_chord = std::sqrt((sine_ - up) * (sine_ + up));
+    const double phi = std::atan2(half_chord, -cosine * up), psi = std::atan2(half_chord, cosine);
+    const Vec3d across = n - axis_ * up;
+    return axis_.z * sine_ * sine_ * phi - across.z * cosine * half_chord / std::max(dot(across, across), 1e-6) + n.z * psi;
+  }
+
+ private:
+  Vec3d axis_{0, 0, 1};
+  double sine_ = 0;
+};
+
 // pi times the share of the transformed cosine that the light covers: the cosine integral of the light seen through the inverse matrix.
 struct Covered {
   const Emitter& emitter;
@@ -90,6 +114,21 @@ struct Covered {
     });
     return std::max(sum, 0.0);
   }
+  // Of a cap, cut at the surface's horizon alone: below its own horizon the cosine counts as negative, which is little where a lobe is, and
+  // nearer on the mean than none. Nothing once all of the light is below the surface's horizon.
+  double share_as_cap() const {
+    const LocalFrame local(point.position, point.normal);
+    const Horizons horizons = horizons_of(local, point.normal, point.surface_normal);
+    const Transform linear = through(local);
+    Vec3d integral;
+    bool is_up = false;
+    each_outline(emitter, local, [&](const Contour& outline, std::size_t) {
+      is_up = is_up || !clipped(outline, horizons).empty();
+      integral += direction_integral(transformed(outline, linear));
+    });
+    const Vec3d horizon = normalised(cosine.inverse.normal({0, 0, 1}));
+    return is_up ? std::clamp(Cap(integral).above(horizon) / (pi * cosine.share_above()), 0.0, 1.0) : 0;
+  }
   // The horizon of the surface is a plane through the point there too.
   double covered(const PolygonEmitter& polygon, const LocalFrame& local, const Transform& linear) const {
     if (polygon.vertices.size() < 3) return 0;
@@ -103,7 +142,7 @@ struct Covered {
   }
 };
 
-enum class Form { four_terms, published, one_cosine, two_cosines };
+enum class Form { four_terms, published, one_cosine, two_cosines, two_caps };
 
 std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& point, Form form) {
   const std::optional<GgxLobe> lobe = correlated_ggx(point.brdf);
@@ -113,13 +152,16 @@ std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& poi
   LtcLobe fit = ltc_table().at(lobe->alpha, frame.cosine);
   if (form == Form::four_terms) fit.whole = four_term_cosine(lobe->alpha, frame.cosine);
   const bool published = form == Form::four_terms || form == Form::published;
+  const bool two = form == Form::two_cosines || form == Form::two_caps;
   const auto share = [&](const TransformedCosine& cosine) {
-    const double covered = Covered{emitter, point, frame, cosine, !published}() / pi;
+    const Covered light{emitter, point, frame, cosine, !published};
+    if (form == Form::two_caps) return light.share_as_cap();
+    const double covered = light() / pi;
     return published ? covered : std::min(covered / cosine.share_above(), 1.0);
   };
   // f0 (1 - w) + f90 w.
-  const double steep = share(form == Form::two_cosines ? fit.steep : fit.whole);
-  const double grazing = form == Form::two_cosines && lobe->f90 != 0 ? share(fit.grazing) : steep;
+  const double steep = share(two ? fit.steep : fit.whole);
+  const double grazing = two && lobe->f90 != 0 ? share(fit.grazing) : steep;
   return luminance_of(emitter) *
          (lobe->f0 * ((fit.albedo - fit.f90_albedo) * steep) + Rgb{1, 1, 1} * (lobe->f90 * fit.f90_albedo * grazing));
 }
@@ -144,6 +186,11 @@ constexpr SpecularMethod methods[] = {
     {"ltc-two-lobes", article,
      "The same, with one cosine for the part of the lobe that Fresnel's term weighs with f0 and one for that with f90.",
      luminance<Form::two_cosines>},
+    {"ltc-two-caps", article,
+     "The same two cosines, the light replaced by the cap of the same vector irradiance, which the surface's horizon cuts: cheaper for "
+     "round "
+     "lights. Those that fill most of the sky are too dark, on rough surfaces by up to a third.",
+     luminance<Form::two_caps>},
 };
 
 }  // namespace

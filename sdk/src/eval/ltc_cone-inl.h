@@ -21,6 +21,10 @@ namespace etendue::eval::HWY_NAMESPACE {
 struct Ellipse {
   Vector3 centre, u, v;
 };
+// S.
+struct Form {
+  Lanes xx, yy, zz, xy, yz, zx;
+};
 struct ConeAxis {
   Lanes det, m, mu_1, slope;  // slope: (m + mu_1)(m + mu_2)
   Vector3 e0;
@@ -36,13 +40,9 @@ HWY_INLINE Lanes third_of_turn(Lanes s) {
 // The root of the characteristic polynomial y^3 - t y^2 + i y - d that is the largest in magnitude comes from Viete's cosine without
 // cancellation, with its sign turned to t's: of the others the product and the sum are known, so that they have all their digits too,
 // whatever the roots are to each other.
-HWY_INLINE ConeAxis axis_of(const Ellipse& e) {
+HWY_INLINE ConeAxis axis_of(const Form& form, Lanes minors, Lanes det, const Vector3& centre) {
   const Floats d;
-  const Lanes zero = number(0);
-  const Vector3 uv = cross(e.u, e.v), cu = cross(e.centre, e.u), cv = cross(e.centre, e.v);
-  const Lanes det = hn::Abs(dot(e.centre, uv)), det2 = hn::Mul(det, det);
-  const Lanes trace = hn::Sub(dot(e.centre, e.centre), hn::Add(dot(e.u, e.u), dot(e.v, e.v)));
-  const Lanes minors = hn::Sub(dot(uv, uv), hn::Add(dot(cu, cu), dot(cv, cv)));
+  const Lanes zero = number(0), trace = hn::Add(form.xx, hn::Add(form.yy, form.zz)), det2 = hn::Mul(det, det);
   const Lit wide = hn::Lt(trace, zero);
   const Lanes t = hn::Abs(trace), signed_det2 = hn::IfThenElse(wide, hn::Neg(det2), det2);
   const Lanes q = hn::Max(hn::NegMulAdd(number(3), minors, hn::Mul(t, t)), number(1e-30f)), over_root = inverse_sqrt(d, q);
@@ -61,18 +61,25 @@ HWY_INLINE ConeAxis axis_of(const Ellipse& e) {
   const Lanes mu_1 = hn::IfThenElse(wide, largest, larger);
   const Lanes mu_2 = hn::IfThenElse(wide, hn::IfThenElse(rising, smaller, larger), smaller);
   // e0 is the adjugate of S - m times the centre, which is on its side.
+  const Lanes xx = hn::Sub(form.xx, m), yy = hn::Sub(form.yy, m), zz = hn::Sub(form.zz, m), xy = form.xy, yz = form.yz, zx = form.zx;
+  const auto minor = [](Lanes a, Lanes b, Lanes c, Lanes f) ETENDUE_INLINE_LAMBDA { return hn::MulSub(a, b, hn::Mul(c, f)); };
+  const Lanes a_xy = minor(zx, yz, xy, zz), a_yz = minor(xy, zx, yz, xx), a_zx = minor(xy, yz, zx, yy);
+  const Vector3 w{dot(Vector3{minor(yy, zz, yz, yz), a_xy, a_zx}, centre), dot(Vector3{a_xy, minor(zz, xx, zx, zx), a_yz}, centre),
+                  dot(Vector3{a_zx, a_yz, minor(xx, yy, xy, xy)}, centre)};
+  const Lanes length2 = dot(w, w);
+  const Vector3 e0 = chosen(hn::Gt(length2, number(1e-36f)), scaled(w, inverse_sqrt(d, hn::Max(length2, number(1e-36f)))), centre);
+  return {det, m, mu_1, hn::Mul(hn::Add(m, mu_1), hn::Add(m, mu_2)), e0};
+}
+
+// Crosses have the digits of narrow cones.
+HWY_INLINE ConeAxis axis_of(const Ellipse& e) {
+  const Vector3 uv = cross(e.u, e.v), cu = cross(e.centre, e.u), cv = cross(e.centre, e.v);
   const auto of = [&](Lanes Vector3::*i, Lanes Vector3::*k) ETENDUE_INLINE_LAMBDA {
     return hn::NegMulAdd(e.u.*i, e.u.*k, hn::NegMulAdd(e.v.*i, e.v.*k, hn::Mul(e.centre.*i, e.centre.*k)));
   };
   constexpr auto x = &Vector3::x, y = &Vector3::y, z = &Vector3::z;
-  const Lanes xx = hn::Sub(of(x, x), m), yy = hn::Sub(of(y, y), m), zz = hn::Sub(of(z, z), m), xy = of(x, y), yz = of(y, z), zx = of(z, x);
-  const auto minor = [](Lanes a, Lanes b, Lanes c, Lanes f) ETENDUE_INLINE_LAMBDA { return hn::MulSub(a, b, hn::Mul(c, f)); };
-  const Lanes a_xy = minor(zx, yz, xy, zz), a_yz = minor(xy, zx, yz, xx), a_zx = minor(xy, yz, zx, yy);
-  const Vector3 w{dot(Vector3{minor(yy, zz, yz, yz), a_xy, a_zx}, e.centre), dot(Vector3{a_xy, minor(zz, xx, zx, zx), a_yz}, e.centre),
-                  dot(Vector3{a_zx, a_yz, minor(xx, yy, xy, xy)}, e.centre)};
-  const Lanes length2 = dot(w, w);
-  const Vector3 e0 = chosen(hn::Gt(length2, number(1e-36f)), scaled(w, inverse_sqrt(d, hn::Max(length2, number(1e-36f)))), e.centre);
-  return {det, m, mu_1, hn::Mul(hn::Add(m, mu_1), hn::Add(m, mu_2)), e0};
+  return axis_of({of(x, x), of(y, y), of(z, z), of(x, y), of(y, z), of(z, x)}, hn::Sub(dot(uv, uv), hn::Add(dot(cu, cu), dot(cv, cv))),
+                 hn::Abs(dot(e.centre, uv)), e.centre);
 }
 
 // A place of the rim in the cone's own axes: cos t and sin t.
@@ -145,13 +152,74 @@ struct Plane {
   }
 };
 
+// Through a matrix, with lengths of the order of 1 again.
+HWY_INLINE Ellipse transformed(const Cosines& cosines, const Ellipse& light) {
+  const Vector3 centre = cosines(light.centre), u = cosines(light.u), v = cosines(light.v);
+  const Lanes size = inverse_sqrt(Floats(), hn::Add(dot(centre, centre), hn::Add(dot(u, u), dot(v, v))));
+  return {scaled(centre, size), scaled(u, size), scaled(v, size)};
+}
+// The surface's horizon, M^-T z.
+HWY_INLINE Vector3 horizon_of(const Cosines& cosines) {
+  const Lanes over = inverse_sqrt(Floats(), hn::MulAdd(cosines.xx, cosines.xx, hn::Mul(cosines.zx, cosines.zx)));
+  return {hn::Neg(hn::Mul(cosines.zx, over)), number(0), hn::Mul(cosines.xx, over)};
+}
+
+// The cone of a sphere or a disk without its axes across: u u^T + v v^T = r^2 (1 - n n^T), so that a sphere's S is a a^T - r^2, a the unit
+// vector to its centre and r the sine of its angle, and a disk's c c^T - r^2 + r^2 n n^T.
+struct RoundCone {
+  Vector3 centre, normal;  // of a sphere a, and 0
+  Lanes radius2, det;
+};
+template <bool sphere>
+HWY_INLINE ConeAxis axis_of(const Cosines& m, const RoundCone& cone) {
+  const Floats d;
+  const auto twice = [](Lanes a, Lanes b, Lanes c, Lanes f) ETENDUE_INLINE_LAMBDA { return hn::MulAdd(a, b, hn::Mul(c, f)); };
+  const Lanes xx = twice(m.xx, m.xx, m.xz, m.xz), yy = hn::Mul(m.yy, m.yy), zz = twice(m.zx, m.zx, m.zz, m.zz),
+              zx = twice(m.xx, m.zx, m.xz, m.zz);
+  const Vector3 c = m(cone.centre);
+  const Lanes sum = hn::MulAdd(cone.radius2, hn::Add(xx, hn::Add(yy, zz)), dot(c, c));
+  const Lanes size = inverse_sqrt(d, sum), size2 = hn::Mul(size, size), r2 = hn::Mul(cone.radius2, size2);
+  const Vector3 p = scaled(c, size), n = sphere ? p : m(cone.normal);
+  const auto part = [&](Lanes Vector3::*i, Lanes Vector3::*k, Lanes squares) ETENDUE_INLINE_LAMBDA {
+    if constexpr (!sphere) squares = hn::NegMulAdd(n.*i, n.*k, squares);
+    return hn::NegMulAdd(r2, squares, hn::Mul(p.*i, p.*k));
+  };
+  constexpr auto x = &Vector3::x, y = &Vector3::y, z = &Vector3::z;
+  const Lanes zero = number(0);
+  const Form s{part(x, x, xx), part(y, y, yy), part(z, z, zz), part(x, y, zero), part(y, z, zero), part(z, x, zx)};
+  const auto minor = [](Lanes a, Lanes b, Lanes e) ETENDUE_INLINE_LAMBDA { return hn::MulSub(a, b, hn::Mul(e, e)); };
+  const Lanes minors = hn::Add(minor(s.xx, s.yy, s.xy), hn::Add(minor(s.yy, s.zz, s.yz), minor(s.zz, s.xx, s.zx)));
+  const Lanes of_matrix = hn::Mul(hn::Abs(m.yy), hn::Abs(hn::MulSub(m.xx, m.zz, hn::Mul(m.xz, m.zx))));
+  return axis_of(s, minors, hn::Mul(hn::Mul(of_matrix, cone.det), hn::Mul(size, size2)), p);
+}
+
+// The share of the cosine that the cap with the cone's integral covers above the surface's horizon: Covered::share_as_cap of ltc.cpp.
+template <bool sphere>
+HWY_INLINE Lanes covered_as_cap(const Cosines& cosines, const RoundCone& light) {
+  const Floats d;
+  const Lanes one = number(1);
+  const ConeAxis cone = axis_of<sphere>(cosines, light);
+  const Vector3 &axis = cone.e0, horizon = horizon_of(cosines);
+  const Lanes sine2 = hn::Min(hn::Mul(cone.det, inverse_sqrt(d, hn::Mul(cone.m, cone.slope))), one), sine = hn::Sqrt(sine2);
+  const Lanes whole = hn::Mul(hn::Mul(number(static_cast<float>(pi)), sine2), axis.z), up = dot(horizon, axis);
+  Lanes sum = hn::IfThenElseZero(hn::Gt(up, hn::Neg(sine)), whole);
+  const Lit cut = hn::Lt(hn::Abs(up), sine);
+  if (!hn::AllFalse(d, cut)) {
+    const Lanes cosine = hn::Sqrt(hn::Sub(one, sine2));
+    const Lanes half_chord = hn::Sqrt(positive(hn::Mul(hn::Sub(sine, up), hn::Add(sine, up))));
+    const Lanes phi = angle_of(d, half_chord, hn::Neg(hn::Mul(cosine, up))), psi = angle_of(d, half_chord, cosine);
+    const Lanes across2 = hn::Max(hn::NegMulAdd(up, up, one), number(1e-6f)), leaning = hn::NegMulAdd(axis.z, up, horizon.z);
+    const Lanes across = hn::Mul(hn::Mul(leaning, inverse(d, across2)), hn::Mul(cosine, half_chord));
+    sum = hn::IfThenElse(cut, hn::MulAdd(hn::Mul(axis.z, sine2), phi, hn::MulSub(horizon.z, psi, across)), sum);
+  }
+  return saturate(hn::Mul(sum, inverse(d, hn::Mul(number(static_cast<float>(pi)), cosines.share_above()))));
+}
+
 // The share of the cosine above the horizon that the cone covers; `crossed`: the horizon cuts it.
-HWY_INLINE Lanes covered(const Cosines& cosines, const Ellipse& light, Lit crossed) {
+inline HWY_NOINLINE Lanes covered(const Cosines& cosines, const Ellipse& light, Lit crossed) {
   const Floats d;
   const Lanes zero = number(0), one = number(1);
-  Ellipse seen{cosines(light.centre), cosines(light.u), cosines(light.v)};
-  const Lanes size = inverse_sqrt(d, hn::Add(dot(seen.centre, seen.centre), hn::Add(dot(seen.u, seen.u), dot(seen.v, seen.v))));
-  seen = {scaled(seen.centre, size), scaled(seen.u, size), scaled(seen.v, size)};
+  const Ellipse seen = transformed(cosines, light);
   const ConeAxis cone = axis_of(seen);
   const Lit own = hn::Lt(hn::Mul(seen.centre.z, seen.centre.z), hn::MulAdd(seen.u.z, seen.u.z, hn::Mul(seen.v.z, seen.v.z)));
   const Lit lit = hn::Or(own, hn::Gt(seen.centre.z, zero)), cut = hn::Or(own, crossed);
@@ -178,9 +246,7 @@ HWY_INLINE Lanes covered(const Cosines& cosines, const Ellipse& light, Lit cross
     const Lanes a = hn::Sqrt(hn::Max(a2, number(1e-20f))), b = hn::Min(hn::Div(hn::Mul(cone.det, over_m), hn::Mul(a, hn::Sqrt(cone.m))), a);
 
     const Rim rim(a, b, {e1.z, e2.z, e0.z});
-    // The surface's horizon, M^-T z.
-    const Lanes over_normal = inverse_sqrt(d, hn::MulAdd(cosines.xx, cosines.xx, hn::Mul(cosines.zx, cosines.zx)));
-    const Vector3 horizon{hn::Neg(hn::Mul(cosines.zx, over_normal)), zero, hn::Mul(cosines.xx, over_normal)};
+    const Vector3 horizon = horizon_of(cosines);
     const Plane first(rim.n, own, rim), second({dot(e1, horizon), dot(e2, horizon), dot(e0, horizon)}, crossed, rim);
     const Lit rises_1 = hn::And(own, second.keeps(first.rises, rim)), sets_1 = hn::And(own, second.keeps(first.sets, rim));
     const Lit rises_2 = hn::And(crossed, first.keeps(second.rises, rim)), sets_2 = hn::And(crossed, first.keeps(second.sets, rim));

@@ -12,8 +12,10 @@
 namespace etendue::eval {
 namespace {
 
-constexpr std::pair<std::string_view, SpecularRule> rules[] = {
-    {"ltc", SpecularRule::ltc}, {"ltc-two-lobes", SpecularRule::ltc_two_lobes}, {"moments", SpecularRule::moments}};
+constexpr std::pair<std::string_view, SpecularRule> rules[] = {{"ltc", SpecularRule::ltc},
+                                                               {"ltc-two-lobes", SpecularRule::ltc_two_lobes},
+                                                               {"ltc-two-caps", SpecularRule::ltc_two_caps},
+                                                               {"moments", SpecularRule::moments}};
 
 std::string_view name_of(SpecularRule rule) {
   return std::find_if(std::begin(rules), std::end(rules), [&](const auto& r) { return r.second == rule; })->first;
@@ -31,7 +33,7 @@ Result<SpecularBatch> SpecularBatch::of(SpecularRule rule, const Emitter& emitte
   white.radiance = {1, 1, 1};
   std::shared_ptr<const Light> light;
   if (!white.pattern && !is_window(white.window)) {
-    light = specular_rect(white);
+    light = specular_rect(rule, white);
     if (!light) light = specular_sphere(rule, white);
     if (!light) light = specular_round(rule, white);
   }

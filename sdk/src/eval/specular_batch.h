@@ -21,8 +21,8 @@ class SpecularBatch::Light {
                            float where_none) const = 0;
 };
 
-// Of an emitter of luminance 1; null if it is no rectangle.
-std::shared_ptr<const SpecularBatch::Light> specular_rect(const Emitter& white);
+// Of an emitter of luminance 1; null if it is no rectangle or if the rule takes none.
+std::shared_ptr<const SpecularBatch::Light> specular_rect(SpecularRule rule, const Emitter& white);
 // The same of a sphere, by moments, and of spheres and disks by transformed cosines.
 std::shared_ptr<const SpecularBatch::Light> specular_sphere(SpecularRule rule, const Emitter& white);
 std::shared_ptr<const SpecularBatch::Light> specular_round(SpecularRule rule, const Emitter& white);

@@ -98,9 +98,9 @@ class RectLight final : public SpecularBatch::Light {
 
 }  // namespace
 
-std::shared_ptr<const SpecularBatch::Light> specular_rect(const Emitter& white) {
+std::shared_ptr<const SpecularBatch::Light> specular_rect(SpecularRule rule, const Emitter& white) {
   const auto* polygon = std::get_if<PolygonEmitter>(&white.shape);
-  if (polygon == nullptr) return nullptr;
+  if (polygon == nullptr || rule == SpecularRule::ltc_two_caps) return nullptr;
   const std::optional<RectView> view = rect_view(*polygon, false, {});
   return view ? std::make_shared<RectLight>(white, *view) : nullptr;
 }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "eval/ltc_cone-inl.h"
 
@@ -29,9 +30,17 @@ namespace {
 
 // The cone, what of its lanes is seen at all, and those that floats are not enough for.
 struct Outlook {
-  Ellipse cone;
+  Ellipse ellipse;
+  RoundCone round;
+  Lit crossed, is_up;  // the horizon cuts it; some of it is above
   Lit seen, doubtful;
 };
+// beside2: the squared height of what is highest beside the centre.
+HWY_INLINE Outlook outlook(const Ellipse& ellipse, const RoundCone& round, Lanes beside2, Lit seen, Lit doubtful) {
+  const Lanes z = ellipse.centre.z;
+  const Lit crossed = hn::Lt(hn::Mul(z, z), beside2);
+  return {ellipse, round, crossed, hn::Or(crossed, hn::Gt(z, number(0))), seen, doubtful};
+}
 
 HWY_INLINE Outlook outlook_of_sphere(const SpecularRound& light, const Vector3& position, const ViewFrame& frame) {
   const Floats d;
@@ -44,9 +53,10 @@ HWY_INLINE Outlook outlook_of_sphere(const SpecularRound& light, const Vector3& 
   const Lanes side = hn::CopySign(one, axis.z), f = hn::Neg(inverse(d, hn::Add(side, axis.z))), g = hn::Mul(hn::Mul(axis.x, axis.y), f);
   const Vector3 u{hn::MulAdd(hn::Mul(side, f), hn::Mul(axis.x, axis.x), one), hn::Mul(side, g), hn::Neg(hn::Mul(side, axis.x))};
   const Vector3 v{g, hn::MulAdd(f, hn::Mul(axis.y, axis.y), side), hn::Neg(axis.y)};
-  return {{scaled(axis, cosine), scaled(u, sine), scaled(v, sine)},
-          hn::FirstN(d, hn::Lanes(d)),
-          hn::Or(hn::Lt(sine, number(0.5f * least_angle)), hn::Ge(sine, number(0.99999f)))};
+  const Lanes sine2 = hn::Mul(sine, sine);
+  return outlook({scaled(axis, cosine), scaled(u, sine), scaled(v, sine)}, {axis, axis, sine2, hn::Mul(cosine, sine2)},
+                 hn::Mul(sine2, hn::NegMulAdd(axis.z, axis.z, one)), hn::FirstN(d, hn::Lanes(d)),
+                 hn::Or(hn::Lt(sine, number(0.5f * least_angle)), hn::Ge(sine, number(0.99999f))));
 }
 HWY_INLINE Outlook outlook_of_disk(const SpecularRound& light, const Vector3& position, const ViewFrame& frame) {
   const Floats d;
@@ -60,12 +70,14 @@ HWY_INLINE Outlook outlook_of_disk(const SpecularRound& light, const Vector3& po
   const Lanes flat2 = hn::Mul(flat, flat), to_rim2 = hn::MulAdd(hn::Mul(inside, inside), number(0.25f), flat2);
   const Lit doubtful =
       hn::Or(hn::Or(hn::Lt(flat2, number(1e-6f)), hn::Lt(to_rim2, number(1e-5f))), hn::Lt(radius, number(0.5f * least_angle)));
-  return {{frame(scaled(centre, over)), frame(scaled(numbers(d, light.x), radius)), frame(scaled(numbers(d, light.y), radius))},
-          front,
-          hn::And(doubtful, front)};
+  const Lanes radius2 = hn::Mul(radius, radius);
+  const Vector3 middle = frame(scaled(centre, over)), facing = frame(numbers(d, light.normal));
+  return outlook({middle, frame(scaled(numbers(d, light.x), radius)), frame(scaled(numbers(d, light.y), radius))},
+                 {middle, facing, radius2, hn::Mul(radius2, hn::Abs(flat))}, hn::Mul(radius2, hn::NegMulAdd(facing.z, facing.z, number(1))),
+                 front, hn::And(doubtful, front));
 }
 
-template <bool two_lobes, bool sphere>
+template <SpecularRule rule, bool sphere>
 class RoundLobe {
  public:
   RoundLobe(const SpecularRound& light, const LtcNodes& nodes) : light_(light), nodes_(nodes) {}
@@ -73,12 +85,12 @@ class RoundLobe {
     const Lanes zero = number(0);
     const ViewFrame frame = view_frame(normal, view);
     const Outlook out = sphere ? outlook_of_sphere(light_, position, frame) : outlook_of_disk(light_, position, frame);
-    const Ellipse& cone = out.cone;
-    const Lit crossed = hn::Lt(hn::Mul(cone.centre.z, cone.centre.z), hn::MulAdd(cone.u.z, cone.u.z, hn::Mul(cone.v.z, cone.v.z)));
-    const Lit lit = hn::And(hn::And(hn::Gt(frame.cosine, zero), out.seen), hn::Or(crossed, hn::Gt(cone.centre.z, zero)));
+    const Lit lit = hn::And(hn::And(hn::Gt(frame.cosine, zero), out.seen), out.is_up);
     doubtful = hn::And(out.doubtful, hn::Gt(frame.cosine, zero));
-    const Shares shares = by_cosines<two_lobes>(
-        nodes_, frame, alpha, [&](const Cosines& cosines) ETENDUE_INLINE_LAMBDA { return covered(cosines, cone, crossed); });
+    const Shares shares = by_cosines<rule != SpecularRule::ltc>(nodes_, frame, alpha, [&](const Cosines& cosines) ETENDUE_INLINE_LAMBDA {
+      if constexpr (rule == SpecularRule::ltc_two_caps) return covered_as_cap<sphere>(cosines, out.round);
+      return covered(cosines, out.ellipse, out.crossed);
+    });
     return {hn::IfThenElseZero(lit, shares.of_f0), hn::IfThenElseZero(lit, shares.of_f90)};
   }
 
@@ -91,10 +103,11 @@ std::size_t OverSpecularRound(SpecularRule rule, const SpecularRound& light, con
                               std::span<float> of_f0, std::span<float> of_f90, float where_none) {
   const auto exact = [&](std::size_t index) { return in_double(rule, light.white, points, index); };
   const auto with = [&](auto kernel) { return over_views(points, of_f0, of_f90, where_none, kernel, exact); };
-  const bool two_lobes = rule == SpecularRule::ltc_two_lobes;
-  if (std::holds_alternative<SphereEmitter>(light.white.shape))
-    return two_lobes ? with(RoundLobe<true, true>(light, nodes)) : with(RoundLobe<false, true>(light, nodes));
-  return two_lobes ? with(RoundLobe<true, false>(light, nodes)) : with(RoundLobe<false, false>(light, nodes));
+  const bool sphere = std::holds_alternative<SphereEmitter>(light.white.shape);
+  const auto by = [&](auto of) { return sphere ? with(RoundLobe<of(), true>(light, nodes)) : with(RoundLobe<of(), false>(light, nodes)); };
+  if (rule == SpecularRule::ltc) return by(std::integral_constant<SpecularRule, SpecularRule::ltc>());
+  if (rule == SpecularRule::ltc_two_lobes) return by(std::integral_constant<SpecularRule, SpecularRule::ltc_two_lobes>());
+  return by(std::integral_constant<SpecularRule, SpecularRule::ltc_two_caps>());
 }
 
 }  // namespace
