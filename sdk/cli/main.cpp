@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   add_validate(app, common, run);
   add_eval(app, common, run);
   add_bench(app, common, run);
+  add_fit(app, common, run);
   add_fit_ltc(app, common, run);
   add_ies(app, common, run);
   add_units(app, common, run);

@@ -17,6 +17,7 @@ void add_compare(CLI::App& app, const Common& common, Run& run);
 void add_bench(CLI::App& app, const Common& common, Run& run);
 void add_eval(CLI::App& app, const Common& common, Run& run);
 void add_validate(CLI::App& app, const Common& common, Run& run);
+void add_fit(CLI::App& app, const Common& common, Run& run);
 void add_fit_ltc(CLI::App& app, const Common& common, Run& run);
 void add_ies(CLI::App& app, const Common& common, Run& run);
 void add_units(CLI::App& app, const Common& common, Run& run);

@@ -103,7 +103,7 @@ class Search {
   }
   // The stationary points of a case. What it leaves at the optimum is the optimum's residual: other points need no closer look.
   void consider(const Rational& one) {
-    for (const double m : sign_changes(one.slope_numerator(), 0, 1))
+    for (const double m : sign_changes(one.slope_numerator()))
       if (!(one(m) > best_.residual + tie(best_.residual))) consider(m);
   }
   // Good points to measure the cases by: the best of a grid, and around it.

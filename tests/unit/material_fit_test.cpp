@@ -179,5 +179,27 @@ TEST(MaterialFit, MetalIntervalIsWhereTheRmsGrowsByNoMoreThanTheTolerance) {
   }
 }
 
+// From many starts the local search finds nothing better, and its best start finds the optimum.
+TEST(MaterialFit, ManyLocalSearchesFindNothingBetter) {
+  Draws draw(6);
+  for (int i = 0; i < 100; ++i) {
+    const ColourPair pair{draw.rgb(0, 1), draw.rgb(0, 1)};
+    const double optimum = fit_disney(pair).residual;
+    double least = std::numeric_limits<double>::infinity();
+    for (int start = 0; start < 60; ++start) {
+      const LocalFit local = fit_disney_from({draw.rgb(0, 1), draw.within(0, 1), draw.within(0.05, 1)}, pair);
+      EXPECT_NEAR(local.residual, squared_difference(local.value, pair), 1e-14);
+      for (const double x :
+           {local.value.base_colour.x, local.value.base_colour.y, local.value.base_colour.z, local.value.metal, local.value.reflectance}) {
+        EXPECT_GE(x, 0);
+        EXPECT_LE(x, 1);
+      }
+      least = std::min(least, local.residual);
+    }
+    EXPECT_GE(least, optimum - 1e-14);
+    EXPECT_NEAR(rms(least), rms(optimum), 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace etendue

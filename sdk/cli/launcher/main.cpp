@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   cli::Common common;
   cli::Run run;
   cli::add_info(app, common, run);
+  cli::add_fit(app, common, run);
   cli::add_ies(app, common, run);
   cli::add_units(app, common, run);
   cli::add_common(app, common);

@@ -52,4 +52,13 @@ DisneyFit fit_disney(const ColourPair& pair, DielectricF0 dielectric = Dielectri
 // The best base colour and reflectance for a metal mask that is given, held within [0, 1]. Reflectance is .5 where it has no effect: at 1.
 DisneyColours fit_disney_at(double metal, const ColourPair& pair, DielectricF0 dielectric = DielectricF0::free);
 
+// Appendix D's own way: Levenberg and Marquardt's steps with the analytic Jacobian from `start`, the parameters held within [0, 1]. It ends
+// in a valley near by, which need not be the deepest: compare its residual with fit_disney's.
+struct LocalFit {
+  DisneyColours value;
+  double residual = 0;
+  int steps = 0;  // taken or tried
+};
+LocalFit fit_disney_from(const DisneyColours& start, const ColourPair& pair);
+
 }  // namespace etendue
