@@ -18,4 +18,5 @@ NB_MODULE(_core, m) {
   bind_photometry(m);
   bind_hdri(m);
   bind_false_colour(m);
+  bind_material_fit(m);
 }

@@ -18,5 +18,6 @@ void bind_pixel(nanobind::module_& m);
 void bind_photometry(nanobind::module_& m);
 void bind_hdri(nanobind::module_& m);
 void bind_false_colour(nanobind::module_& m);
+void bind_material_fit(nanobind::module_& m);
 
 }  // namespace etendue::python

@@ -14,7 +14,7 @@
 Whatever cannot be answered is an etendue.Error with code, text, hint, field.
 """
 
-from . import batch, camera, colour, colour_space, dialect, false_colour, hdri, metering, photometry, pixel, spectrum
+from . import batch, camera, colour, colour_space, dialect, false_colour, hdri, material_fit, metering, photometry, pixel, spectrum
 from .conversion import Explanation, convert, explain
 from .errors import ClampedWarning, Error
 from .quantity import Quantity, Unit, dimensions, quantity, units
@@ -68,6 +68,7 @@ __all__ = [
     "explain",
     "false_colour",
     "hdri",
+    "material_fit",
     "metering",
     "parse",
     "photometry",
