@@ -3,6 +3,7 @@
 
 #include "fresnel.h"
 #include "lobe_cells.h"
+#include "lobe_grading.h"
 #include "lobe_slopes.h"
 #include "local.h"
 #include "specular_view.h"
@@ -24,13 +25,6 @@ double angle_between(const Vec2d& a, const Vec2d& b) { return std::atan2(a.x * b
 Vec2d stereographic(const Vec2d& q) {
   const double per = 1 / (1 + std::sqrt(1 + squared(q)));
   return {q.x * per, q.y * per};
-}
-
-// In the middle; where one end is much nearer to the rim than the other in the mean of the distances' orders.
-double split_towards_rim(double from, double to, double rim) {
-  if (to < 0) return -split_towards_rim(-to, -from, rim);
-  const double far = rim - from, near = rim - to;
-  return from < 0 || !(near < 0.2 * far) ? 0.5 * (from + to) : rim - std::max(std::sqrt(far * near), 0.05 * far);
 }
 
 // Arcs of one outline, up to `last`, and their fan.
@@ -145,36 +139,15 @@ class Adaptive {
 
   // ---- First cells ----
 
-  // W bends where the slopes m = alpha q are about 1, alpha away from the rim p = 1: cells of a ray that reach it are made smaller towards
-  // it, as long as what is beyond, its area times what W differs there (alpha / distance), is not negligible.
-  template <class Mark>
-  void grade_rim(double base, double p, const Mark& mark) const {
-    if (!(lobe_.alpha > 0.05 * (1 - p))) return;
-    const double from = 1 - base, end = std::max(1 - p, 0.1 * lobe_.alpha);
-    const double closer = tolerance_ >= 5e-4 ? 0.0625 : 0.25;
-    double at = from;
-    while (at > 5 * end && at * std::min(lobe_.alpha, at) > negligible_ * from * from) mark(at *= closer);
-  }
   double layer() const { return std::min(lobe_.alpha, lobe_.view.z); }
-  // Masking bends within min(alpha, n.v) of the horizon, which a rule does not see that has no node there: heights above it that bound
-  // cells, from the lowest below which there is something. An outline along the horizon has a layer there, any other, which only ends
-  // there, the square of it.
-  template <class Mark>
-  void grade_heights(double lowest, double highest, bool along, const Mark& mark) const {
-    double height = std::max(2 * layer(), highest * (along ? negligible_ : std::sqrt(negligible_)));
-    if (lowest > height) return;
-    while (height < 0.5 * highest) {
-      mark(height);
-      height *= 4;
-    }
-  }
 
   // Both ends of an arc, where it ends at the horizon.
   void grade_ends(std::vector<double>& xs, const LobeArc& arc) const {
     for (const bool at_end : {false, true}) {
       const double from = arc.tau_of(at_end ? arc.x1 : arc.x0), way = arc.tau_of(at_end ? arc.x0 : arc.x1) - from, step = 1e-3;
       const double low = arc.height(from), slope = (arc.height(from + step * way) - low) / step;
-      if (slope > 0) grade_heights(low, slope, false, [&](double h) { xs.push_back(arc.x_of(from + (h - low) / slope * way)); });
+      if (slope > 0)
+        grade_heights(layer(), negligible_, low, slope, false, [&](double h) { xs.push_back(arc.x_of(from + (h - low) / slope * way)); });
     }
   }
   // n.l at the outer end of the ray to x, and how it rises inwards.
@@ -209,9 +182,10 @@ class Adaptive {
       for (const double at : {x0, x, x1})
         if (const Rise rise = rise_at(arc, base, at); rise.slope > steepest.slope) steepest = rise;
       if (steepest.slope > 0)
-        grade_heights(steepest.low, steepest.slope, along, [&](double h) { mark(1 - (h - steepest.low) / steepest.slope); });
+        grade_heights(layer(), negligible_, steepest.low, steepest.slope, along,
+                      [&](double h) { mark(1 - (h - steepest.low) / steepest.slope); });
     }
-    grade_rim(base, p, [&](double away) { mark((1 - away - base) / length); });
+    grade_rim(lobe_.alpha, 1 - base, 1 - p, negligible_, tolerance_, [&](double away) { mark((1 - away - base) / length); });
     std::sort(ts.begin(), ts.end());
     for (std::size_t k = 0; k + 1 < ts.size(); ++k) {
       LobeCell cell;
@@ -318,7 +292,7 @@ class Adaptive {
   void halve(const LobeCell& parent, std::vector<LobeCell>& children) {
     children.clear();
     if (parent.split_x) {
-      const double middle = split_towards_rim(parent.x0, parent.x1, 1);
+      const double middle = split_towards_rim(parent.x0, parent.x1, 1.0);
       add_cells(children, parent.arc, parent.x0, middle, parent.t0, parent.t1);
       add_cells(children, parent.arc, middle, parent.x1, parent.t0, parent.t1);
       return;

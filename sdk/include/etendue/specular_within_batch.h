@@ -1,0 +1,42 @@
+// The specular light of one rectangle at many points to an asked tolerance, on the best instruction set that the machine has:
+// height-correlated round GGX with Schlick's Fresnel, the integral of specular_light.h with its cells in vectors.
+//   const Result<SpecularWithinBatch> batch = SpecularWithinBatch::of(emitter, 1e-3);
+//   BatchOutcome done = batch->shares({points, vx, vy, vz, alpha}, {of_f0, of_f90, bound_f0, bound_f90}, 0);
+//   luminance = batch->scale() * (f0 * of_f0[i] + f90 * of_f90[i]);   // cd/m2 towards the view, in any colour of f0
+#pragma once
+
+#include "etendue/specular_batch.h"
+
+namespace etendue::eval {
+
+// Of each point the luminance for a light of 1 cd/m2 as factors on f0 and f90, and bounds of its error as such: f0 bound_f0 + f90
+// bound_f90. Bounds that are not asked for are empty.
+struct BoundedShares {
+  std::span<float> of_f0, of_f90, bound_f0, bound_f90;
+};
+
+class SpecularWithinBatch {
+ public:
+  static constexpr double least_f0 = 0.02, least_tolerance = 1e-4, most_tolerance = 0.1;
+
+  // |error| <= tolerance max(value, 1e-3 E L) as for specular_luminance, wherever f0 is least_f0 f90 or more and no more than f90.
+  // Errors: METHOD_SHAPE: no uniform rectangle without a window; TOLERANCE_OUT_OF_RANGE.
+  static Result<SpecularWithinBatch> of(const Emitter& emitter, double tolerance);
+
+  // Most points take cells of floats; where a float has too few digits or the cells do not get there, specular_luminance in double is asked
+  // for the tolerance. Bounds are estimates, as those of specular_luminance are; tests/acceptance/specular --only adaptive counts how many
+  // answers keep them. Points with a number that is not finite become `where_none`, and are counted. Errors: BATCH_SIZES_DIFFER.
+  BatchOutcome shares(const SpecularPoints& points, const BoundedShares& to, float where_none) const;
+  const Rgb& scale() const { return scale_; }  // cd/m2
+
+  class Light;  // sdk/src/eval/specular_within_batch.cpp
+
+ private:
+  SpecularWithinBatch(double tolerance, std::shared_ptr<const Light> light, const Rgb& scale)
+      : tolerance_(tolerance), light_(std::move(light)), scale_(scale) {}
+  double tolerance_;
+  std::shared_ptr<const Light> light_;
+  Rgb scale_;
+};
+
+}  // namespace etendue::eval

@@ -1,0 +1,356 @@
+// Adaptive evaluation of many points at once: where cells begin and which are halved, as specular_light.cpp does it for one.
+#include "etendue/specular_within_batch.h"
+
+#include "batch_error.h"
+#include "etendue/specular_light.h"
+#include "lobe_grading.h"
+#include "specular_cells.h"
+#include "views.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace etendue::eval {
+
+class SpecularWithinBatch::Light {
+ public:
+  Light(const Emitter& emitter, const RectView& seen) : white(emitter), view(seen) {}
+
+  Emitter white;  // of 1 cd/m2
+  RectView view;
+};
+
+namespace {
+
+// Part of what is allowed that is left to what no cell is laid out for.
+constexpr double neglected = 0.25;
+
+struct CellPlan {
+  double tolerance;
+  float negligible;  // part of the light that no cell is laid out for
+};
+
+// One side of one point, in floats.
+struct SideAt {
+  const SideBlock& block;
+  std::size_t side, point;
+
+  float of(SideBlock::OfSide k) const { return block.side[k][side]; }
+  float of(SideBlock::OfPoint k) const { return block.point[k][point]; }
+  float tau_of(float x) const { return of(SideBlock::kappa) * x / ((1 - x) * (1 + x)); }
+  float x_of(float tau) const {
+    const float kappa = of(SideBlock::kappa);
+    return 2 * tau / (kappa + std::sqrt(kappa * kappa + 4 * tau * tau));
+  }
+  float height(float tau) const {
+    const float z = of(SideBlock::z0) + tau * (of(SideBlock::z1) + tau * of(SideBlock::z2));
+    return z / (1 + tau * tau) - of(SideBlock::view_z);
+  }
+  struct Q {
+    float x, y;
+    float length() const { return std::sqrt(x * x + y * y); }
+    float p() const { return length() / (1 + std::sqrt(1 + x * x + y * y)); }
+  };
+  Q at(float tau) const {
+    const float over = 1 / (of(SideBlock::z0) + tau * (of(SideBlock::z1) + tau * of(SideBlock::z2)));
+    return {(of(SideBlock::x0) + tau * (of(SideBlock::x1) + tau * of(SideBlock::x2))) * over,
+            (of(SideBlock::y0) + tau * (of(SideBlock::y1) + tau * of(SideBlock::y2))) * over};
+  }
+};
+
+// First cells, as specular_light.cpp lays them out.
+class CellLayout {
+ public:
+  CellLayout(const CellPlan& plan, const SideBlock& block, CellList& cells) : plan_(plan), block_(block), cells_(cells) {}
+
+  void lay_point(std::size_t point) {
+    layer_ = std::min(block_.point[SideBlock::alpha][point], block_.point[SideBlock::view_z][point]);
+    for (std::size_t side = 0; side < most_sides; ++side) {
+      const SideAt at{block_, side * points_at_once + point, point};
+      const float x0 = at.of(SideBlock::begin), x1 = at.of(SideBlock::end);
+      if (x1 > x0) lay_side(at, x0, x1, side == most_sides - 1);
+    }
+  }
+
+ private:
+  void lay_side(const SideAt& at, float x0, float x1, bool horizon) {
+    constexpr float far = 0.5f, long_way = 0.8f;
+    const float alpha = at.of(SideBlock::alpha), rest = at.of(SideBlock::rest);
+    low_ = !(at.of(SideBlock::lowest) > std::max(2 * layer_, std::sqrt(plan_.negligible)));
+    at_rim_ = alpha > 0.05f * at.of(SideBlock::rim) && rest > 5 * std::max(at.of(SideBlock::rim), 0.1f * alpha);
+    std::array<float, 24> xs;
+    std::size_t count = 0;
+    const auto mark = [&](float x) {
+      if (x > x0 && x < x1 && count < xs.size() - 1) xs[count++] = x;
+    };
+    xs[count++] = x0;
+    if (x1 > long_way) mark(far);
+    if (x0 < -long_way) mark(-far);
+    if (x1 > 0.6f && x0 < -0.6f) mark(0);
+    if (low_ && !horizon) {
+      const float tau0 = at.tau_of(x0), tau1 = at.tau_of(x1), low0 = at.height(tau0), low1 = at.height(tau1);
+      for (const bool at_end : {false, true}) {
+        const float from = at_end ? tau1 : tau0, way = (at_end ? tau0 : tau1) - from, low = std::max(at_end ? low1 : low0, 0.0f);
+        if (low > std::max(2 * layer_, std::sqrt(plan_.negligible))) continue;
+        constexpr float step = 1e-2f;
+        const float slope = (at.height(from + step * way) - low) / step;
+        if (slope > 0)
+          grade_heights(layer_, plan_.negligible, low, slope, false, [&](float h) { mark(at.x_of(from + (h - low) / slope * way)); });
+      }
+    }
+    if (count > 2) std::sort(xs.begin(), xs.begin() + static_cast<std::ptrdiff_t>(count));
+    xs[count++] = x1;
+    for (std::size_t k = 0; k + 1 < count; ++k)
+      if (xs[k + 1] > xs[k]) lay_cells(at, xs[k], xs[k + 1]);
+  }
+  // n.l at the outer end of the ray to x, and how it rises inwards.
+  struct Rise {
+    float low = 0, slope = 0;
+  };
+  Rise rise_at(const SideAt& at, float x) const {
+    const SideAt::Q q = at.at(at.tau_of(x));
+    const float length = q.length(), p1 = q.p(), base = at.of(SideBlock::base), alpha = at.of(SideBlock::alpha),
+                vz = at.of(SideBlock::view_z);
+    const auto height = [&](float t) {
+      const float p = base + t * (p1 - base), stretch = 2 * p / ((1 - p) * (1 + p)) * alpha / length;
+      const float vm = stretch * at.of(SideBlock::view_x) * q.x, m2 = stretch * stretch * length * length;
+      return (2 * vm + vz * (1 - m2)) / (1 + m2);
+    };
+    constexpr float step = 1e-2f;
+    const float low = std::max(height(1), 0.0f);
+    return {low, (height(1 - step) - low) / step};
+  }
+  void lay_cells(const SideAt& at, float x0, float x1) {
+    const auto add = [&](float t0, float t1) {
+      cells_.add(static_cast<std::int32_t>(at.point), static_cast<std::int32_t>(at.side), x0, x1, t0, t1);
+    };
+    if (!low_ && !at_rim_) return add(0, 1);
+    const float x = 0.5f * (x0 + x1), base = at.of(SideBlock::base), alpha = at.of(SideBlock::alpha);
+    const float p = at.at(at.tau_of(x)).p(), length = p - base;
+    std::array<float, 24> ts;
+    std::size_t count = 0;
+    const auto mark = [&](float t) {
+      if (t > 0 && t < 1 && count < ts.size() - 1) ts[count++] = t;
+    };
+    ts[count++] = 0;
+    if (low_) {
+      const float h0 = at.height(at.tau_of(x0)), h = at.height(at.tau_of(x)), h1 = at.height(at.tau_of(x1));
+      const bool along = std::max({h0, h, h1}) < 4 * layer_;
+      Rise steepest;
+      for (const float place : {x0, x, x1})
+        if (const Rise rise = rise_at(at, place); rise.slope > steepest.slope) steepest = rise;
+      if (steepest.slope > 0)
+        grade_heights(layer_, plan_.negligible, steepest.low, steepest.slope, along,
+                      [&](float v) { mark(1 - (v - steepest.low) / steepest.slope); });
+    }
+    if (at_rim_) {
+      grade_rim(alpha, 1 - base, 1 - p, plan_.negligible, plan_.tolerance, [&](float away) { mark((1 - away - base) / length); });
+    }
+    if (count > 2) std::sort(ts.begin(), ts.begin() + static_cast<std::ptrdiff_t>(count));
+    ts[count++] = 1;
+    for (std::size_t k = 0; k + 1 < count; ++k)
+      if (ts[k + 1] > ts[k]) add(ts[k], ts[k + 1]);
+  }
+
+  const CellPlan& plan_;
+  const SideBlock& block_;
+  CellList& cells_;
+  float layer_ = 0;
+  bool low_ = false, at_rim_ = false;  // the side reaches the horizon's layer, the rim's
+};
+
+struct Sums {
+  float shape = 0, risen = 0, shape_error = 0, risen_error = 0;
+  float rounding = 0;  // relative
+  void add(const CellList& cells, std::size_t i) {
+    shape += cells.shape[i], risen += cells.risen[i], shape_error += cells.shape_error[i], risen_error += cells.risen_error[i];
+  }
+};
+
+// All cells of a block of points, round after round.
+class BlockWithin {
+ public:
+  BlockWithin(const RectWithin& rect, const CellPlan& plan) : rect_(rect), plan_(plan) {}
+
+  std::array<Sums, points_at_once> sums;
+  std::array<bool, points_at_once> kept;  // to the tolerance
+
+  void run(const SpecularPoints& points, std::size_t first, std::size_t count) {
+    constexpr int most_rounds = 8;
+    lay_sides(rect_, points, first, count, block_);
+    cells_->full = next_->full = false;
+    cells_->clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      sums[i] = {};
+      const bool sure = block_.point[SideBlock::doubt][i] == 0, lit = block_.point[SideBlock::floor][i] > 0;
+      kept[i] = sure && !lit;
+      if (sure && lit) CellLayout(plan_, block_, *cells_).lay_point(i);
+    }
+    for (int round = 0; round < most_rounds && cells_->count > 0; ++round) {
+      measure(block_, plan_.tolerance, *cells_);
+      next_->clear();
+      for (std::size_t from = 0, to = 0; from < cells_->count; from = to) {
+        const std::int32_t point = cells_->point[from];
+        while (to < cells_->count && cells_->point[to] == point) ++to;
+        judge(static_cast<std::size_t>(point), from, to);
+      }
+      std::swap(cells_, next_);
+    }
+    // Whose cells are missing is not known.
+    if (cells_->full || next_->full)
+      for (std::size_t i = 0; i < count; ++i) kept[i] = kept[i] && !(floor(i) > 0);
+  }
+  float floor(std::size_t i) const { return block_.point[SideBlock::floor][i]; }
+
+ private:
+  // Of cells that have been measured, those of one point: all are taken, or the worst are halved.
+  void judge(std::size_t point, std::size_t from, std::size_t to) {
+    constexpr std::size_t most_cells = 200;
+    constexpr float acceptable = 0.1f;  // part of what is allowed that a single cell may err by and not be halved
+    constexpr auto least_f0 = static_cast<float>(SpecularWithinBatch::least_f0);
+    Sums all = sums[point];
+    for (std::size_t i = from; i < to; ++i) all.add(*cells_, i);
+    const auto dark = [](float shape, float risen) { return least_f0 * shape + (1 - least_f0) * risen; };
+    const auto tolerance = static_cast<float>((1 - neglected) * plan_.tolerance);
+    // A float's digits of n.v + n.l, which half vectors are divided by, and of slopes, which alpha divides.
+    const float least = floor(point),
+                rounding = (2e-7f + 5e-10f / block_.point[SideBlock::alpha][point]) / block_.point[SideBlock::view_z][point];
+    all.rounding = rounding;
+    const float bright_aim = tolerance * std::max(all.shape, least) - rounding * all.shape;
+    const float dark_value = dark(all.shape, all.risen), dark_aim = tolerance * std::max(dark_value, least) - rounding * dark_value;
+    if (!(bright_aim > 0 && dark_aim > 0)) return;
+    // A ratio of what is linear in f0 is largest at one of both ends.
+    const auto excess = [&](float shape_error, float risen_error) {
+      return std::max(shape_error / bright_aim, dark(shape_error, risen_error) / dark_aim);
+    };
+    if (excess(all.shape_error, all.risen_error) <= 1) {
+      sums[point] = all;
+      kept[point] = true;
+      return;
+    }
+    if (to - from > most_cells) return;
+    for (std::size_t i = from; i < to; ++i) {
+      if (excess(cells_->shape_error[i], cells_->risen_error[i]) <= acceptable) {
+        sums[point].add(*cells_, i);
+      } else {
+        halve(point, i);
+      }
+    }
+  }
+  void halve(std::size_t point, std::size_t i) {
+    const float x0 = cells_->x0[i], x1 = cells_->x1[i], t0 = cells_->t0[i], t1 = cells_->t1[i];
+    const auto add = [&](float xa, float xb, float ta, float tb) { next_->add(cells_->point[i], cells_->side[i], xa, xb, ta, tb); };
+    if (cells_->along_t[i] > 0) {
+      const SideAt at{block_, static_cast<std::size_t>(cells_->side[i]), point};
+      const float base = at.of(SideBlock::base), length = at.at(at.tau_of(0.5f * (x0 + x1))).p() - base;
+      const float middle = split_towards_rim(t0, t1, length > 1e-6f ? std::max((1 - base) / length, 1.0f) : 1e30f);
+      add(x0, x1, t0, middle), add(x0, x1, middle, t1);
+    } else {
+      const float middle = split_towards_rim(x0, x1, 1.0f);
+      add(x0, middle, t0, t1), add(middle, x1, t0, t1);
+    }
+  }
+
+  const RectWithin& rect_;
+  const CellPlan& plan_;
+  SideBlock block_;
+  std::unique_ptr<CellList> cells_ = std::make_unique_for_overwrite<CellList>(), next_ = std::make_unique_for_overwrite<CellList>();
+};
+
+}  // namespace
+
+namespace {
+
+struct BoundedShare {
+  double of_f0 = 0, of_f90 = 0, bound_f0 = 0, bound_f90 = 0;
+};
+BoundedShare bounded(const Sums& s, double floor, double tolerance) {
+  const double shape = s.shape, risen = s.risen, told = neglected * tolerance;
+  const double off = s.shape_error + s.rounding * shape, risen_off = s.risen_error + s.rounding * risen;
+  return {std::max(shape - risen, 0.0), std::max(risen, 0.0), off + told * shape, risen_off + told * (risen + floor)};
+}
+
+// specular_luminance takes one f0 a channel: the whole lobe, and what f90 alone has of it.
+BoundedShare in_double(const Emitter& white, const SpecularPoints& points, std::size_t index, double tolerance) {
+  const PointBatch& s = points.surface;
+  const auto at = [&](std::span<const float> x, std::span<const float> y, std::span<const float> z) {
+    return Vec3d{x[index], y[index], z[index]};
+  };
+  const Vec3d normal = at(s.nx, s.ny, s.nz), view = at(points.vx, points.vy, points.vz);
+  if (!(length(normal) > 0 && length(view) > 0)) return {};
+  ShadingPoint point{at(s.px, s.py, s.pz) + s.origin, normalised(normal), normalised(normal), normalised(view), Lambert{}};
+  point.brdf = GgxLobe{points.alpha[index], {1, SpecularWithinBatch::least_f0, 1}, 1};
+  const Estimate found = specular_luminance(white, point, tolerance).value_or(Estimate{});
+  const double whole = found.value.x, dark = found.value.y, least = SpecularWithinBatch::least_f0;
+  const double risen = std::clamp((dark - least * whole) / (1 - least), 0.0, whole);
+  return {whole - risen, risen, found.error.x, found.error.y};
+}
+
+CellPlan plan_for(double tolerance) {
+  // Facets may send four times as much of the light elsewhere as at the middle of the lobe (specular_light.cpp).
+  return {tolerance, static_cast<float>(neglected * tolerance / 4)};
+}
+
+}  // namespace
+
+Result<SpecularWithinBatch> SpecularWithinBatch::of(const Emitter& emitter, double tolerance) {
+  if (!(tolerance >= least_tolerance && tolerance <= most_tolerance)) {
+    const std::string expected = fmt::format("expected a tolerance from {} to {}, found {}", least_tolerance, most_tolerance, tolerance);
+    return Error{"TOLERANCE_OUT_OF_RANGE", expected, {}, {}, {}};
+  }
+  Emitter white = emitter;
+  white.radiance = {1, 1, 1};
+  const auto* polygon = std::get_if<PolygonEmitter>(&white.shape);
+  const bool uniform = !white.pattern && !is_window(white.window);
+  const std::optional<RectView> view = polygon != nullptr && uniform ? rect_view(*polygon, false, {}) : std::nullopt;
+  if (!view) return Error{"METHOD_SHAPE", "expected a uniform rectangle without a window", {}, {}, {}};
+  return SpecularWithinBatch(tolerance, std::make_shared<const Light>(white, *view), emitter.radiance);
+}
+
+BatchOutcome SpecularWithinBatch::shares(const SpecularPoints& points, const BoundedShares& to, float where_none) const {
+  const PointBatch& s = points.surface;
+  const std::size_t count = to.of_f0.size();
+  const std::array<std::span<const float>, 10> in{s.px, s.py, s.pz, s.nx, s.ny, s.nz, points.vx, points.vy, points.vz, points.alpha};
+  for (const std::span<const float>& numbers : in)
+    if (numbers.size() != count) return batch_sizes_differ(numbers.size(), count);
+  if (to.of_f90.size() != count) return batch_sizes_differ(count, to.of_f90.size());
+  for (const std::span<float>& bounds : {to.bound_f0, to.bound_f90})
+    if (!bounds.empty() && bounds.size() != count) return batch_sizes_differ(count, bounds.size());
+
+  const RectView& view = light_->view;
+  const auto corner = [&](double x, double y) { return view.at(x * view.half_x, y * view.half_y) - s.origin; };
+  const RectWithin rect{{corner(-1, -1), corner(-1, 1), corner(1, 1), corner(1, -1)}, view.normal, light_->white.two_sided};
+  const CellPlan plan = plan_for(tolerance_);
+  const auto block = std::make_unique<BlockWithin>(rect, plan);
+  std::size_t without = 0;
+  const auto write = [&](std::size_t index, const BoundedShare& share) {
+    to.of_f0[index] = static_cast<float>(share.of_f0), to.of_f90[index] = static_cast<float>(share.of_f90);
+    if (!to.bound_f0.empty()) to.bound_f0[index] = static_cast<float>(share.bound_f0);
+    if (!to.bound_f90.empty()) to.bound_f90[index] = static_cast<float>(share.bound_f90);
+  };
+  for (std::size_t first = 0; first < count; first += points_at_once) {
+    const std::size_t number = std::min(points_at_once, count - first);
+    block->run(points, first, number);
+    for (std::size_t i = 0; i < number; ++i) {
+      const std::size_t index = first + i;
+      if (block->kept[i]) {
+        write(index, bounded(block->sums[i], block->floor(i), tolerance_));
+      } else if (std::all_of(in.begin(), in.end(), [&](const auto& numbers) { return std::isfinite(numbers[index]); })) {
+        write(index, in_double(light_->white, points, index, tolerance_));
+      } else {
+        write(index, {where_none, where_none, 0, 0});
+        ++without;
+      }
+    }
+  }
+  return without;
+}
+
+}  // namespace etendue::eval

@@ -1,0 +1,154 @@
+// Specular light of rectangles to a tolerance in vectors against specular_luminance, which is asked for a thirtieth of it.
+#include "etendue/specular_within_batch.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "etendue/specular_light.h"
+#include "eval_protocol.h"
+#include "float_points.h"
+#include "instruction_sets.h"
+
+namespace {
+
+using namespace etendue;
+using namespace etendue::eval;
+using namespace etendue::eval::protocol;
+
+struct Views {
+  FloatPoints surface;
+  std::vector<float> vx, vy, vz, alpha;
+
+  void add(const Vec3d& position, const Vec3d& normal, const Vec3d& view, double a) {
+    surface.add(position, normal);
+    const Vec3f v = vec_cast<float>(view);
+    vx.push_back(v.x), vy.push_back(v.y), vz.push_back(v.z), alpha.push_back(static_cast<float>(a));
+  }
+  std::size_t size() const { return alpha.size(); }
+  SpecularPoints points() const { return {surface.batch(), vx, vy, vz, alpha}; }
+  // What the floats say.
+  ShadingPoint point(std::size_t i, double f0) const {
+    const Vec3d n = surface.normal(i);
+    return {surface.position(i), n, n, normalised(Vec3d{vx[i], vy[i], vz[i]}), GgxLobe{alpha[i], {f0, f0, f0}, 1}};
+  }
+};
+struct Answers {
+  std::vector<float> of_f0, of_f90, bound_f0, bound_f90;
+  explicit Answers(std::size_t count) : of_f0(count, -1), of_f90(count, -1), bound_f0(count, -1), bound_f90(count, -1) {}
+  BoundedShares to() { return {of_f0, of_f90, bound_f0, bound_f90}; }
+  double value(std::size_t i, double f0) const { return f0 * static_cast<double>(of_f0[i]) + static_cast<double>(of_f90[i]); }
+  double bound(std::size_t i, double f0) const { return f0 * static_cast<double>(bound_f0[i]) + static_cast<double>(bound_f90[i]); }
+};
+
+// Points around a light, some behind it and some under whose horizon it is or crosses; half of the views have the mirror direction in it,
+// others are down to 1e-4 above the horizon; alpha from 1e-4 on.
+Views views_around(const Emitter& light, Random& random, int count) {
+  Views views;
+  for (int i = 0; i < count; ++i) {
+    const Vec3d position = random.direction() * random.uniform(0.5, 4), normal = random.direction();
+    const Vec3d l = sample_light(light, position, random.square()).direction;
+    const double z = dot(l, normal), cosine = random.log_uniform(1e-4, 1);
+    const Basis b = basis_around(normal);
+    const double turn = random.uniform(0, 2 * pi), sine = std::sqrt((1 - cosine) * (1 + cosine));
+    const bool mirrored = i % 2 == 0 && z > 1e-4;
+    const Vec3d view =
+        mirrored ? normal * (2 * z) - l : normal * cosine + (b.tangent * std::cos(turn) + b.bitangent * std::sin(turn)) * sine;
+    views.add(position, normal, view, random.log_uniform(1e-4, 1));
+  }
+  return views;
+}
+
+TEST(SpecularWithinBatch, KeepsTheTolerance) {
+  for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+    for (const bool two_sided : {false, true}) {
+      Random random(5);
+      Emitter light = white(rectangle({0.3, -0.2, 0.1}, {0.6, 0, 0.8}, {0, 1, 0}, 1.3, 0.7));
+      light.two_sided = two_sided;
+      const Views views = views_around(light, random, 500);
+      for (const double f0 : {1.0, 0.04}) {
+        std::vector<Estimate> truth;
+        for (std::size_t i = 0; i < views.size(); ++i) truth.push_back(*specular_luminance(light, views.point(i, f0), tolerance / 30));
+        on_each_instruction_set([&] {
+          Answers found(views.size());
+          ASSERT_TRUE(SpecularWithinBatch::of(light, tolerance)->shares(views.points(), found.to(), -1));
+          for (std::size_t i = 0; i < views.size(); ++i) {
+            const ShadingPoint point = views.point(i, f0);
+            const double floor = 1e-3 * lux_at(light, point.position, point.normal), expected = truth[i].value.x;
+            const double allowed = tolerance * std::max(expected, floor);
+            // A float's own rounding stands beside a tolerance of 1e-4.
+            EXPECT_NEAR(found.value(i, f0), expected, allowed + truth[i].error.x + 3e-7 * expected)
+                << i << " asked " << tolerance << " alpha " << views.alpha[i] << " n.v " << dot(point.view, point.normal);
+            EXPECT_LE(std::abs(found.value(i, f0) - expected), found.bound(i, f0) + truth[i].error.x + 3e-7 * expected) << i;
+            // Linear in f0 it is up to twice what is allowed, and a quarter of that is told of the value and of the floor.
+            EXPECT_LE(found.bound(i, f0), 2.3 * allowed + 1e-12) << i;
+          }
+        });
+      }
+    }
+  }
+}
+
+// Lights as small as a digit of a float, far out of the lobe, beside the point, in its plane.
+TEST(SpecularWithinBatch, ExtremesAreFinite) {
+  on_each_instruction_set([] {
+    for (const double size : {1e-6, 1e-3, 1.0, 1e4}) {
+      const Emitter light = white(rectangle({0.3, 0, 1}, {1, 0, 0}, {0, -1, 0}, size, size));
+      Views views;
+      for (const double alpha : {0.0, 1e-4, 0.03, 1.0})
+        for (const double cosine : {1e-7, 1e-3, 0.5, 1.0})
+          for (const Vec3d& normal : {Vec3d{0, 0, 1}, Vec3d{1, 0, 0}, Vec3d{-1, 0, 0}})
+            for (const double height : {0.0, 0.999999, 1.0, -100.0}) {
+              const Vec3d across = basis_around(normal).tangent;
+              views.add({0, 0, height}, normal, normal * cosine + across * std::sqrt((1 - cosine) * (1 + cosine)), alpha);
+            }
+      Answers found(views.size());
+      ASSERT_TRUE(SpecularWithinBatch::of(light, 1e-3)->shares(views.points(), found.to(), -1));
+      for (std::size_t i = 0; i < views.size(); ++i) {
+        EXPECT_GE(found.of_f0[i], 0) << i;
+        EXPECT_GE(found.of_f90[i], 0) << i;
+        EXPECT_LE(found.value(i, 1), 1.002) << i;
+        EXPECT_TRUE(std::isfinite(found.bound(i, 1))) << i;
+      }
+    }
+  });
+}
+
+TEST(SpecularWithinBatch, SaysWhatItDoesNotTake) {
+  const Emitter light = white(rectangle({0, 0, 1}, {1, 0, 0}, {0, -1, 0}, 1, 1));
+  EXPECT_TRUE(SpecularWithinBatch::of(light, 1e-3));
+  EXPECT_EQ(SpecularWithinBatch::of(light, 1e-5).error().code, "TOLERANCE_OUT_OF_RANGE");
+  EXPECT_EQ(SpecularWithinBatch::of(light, 0.2).error().code, "TOLERANCE_OUT_OF_RANGE");
+  EXPECT_EQ(SpecularWithinBatch::of(light, std::numeric_limits<double>::quiet_NaN()).error().code, "TOLERANCE_OUT_OF_RANGE");
+  EXPECT_EQ(SpecularWithinBatch::of(white(SphereEmitter{{0, 0, 1}, 0.3}), 1e-3).error().code, "METHOD_SHAPE");
+  Emitter windowed = light;
+  windowed.window = {Falloff::gltf, 3};
+  EXPECT_EQ(SpecularWithinBatch::of(windowed, 1e-3).error().code, "METHOD_SHAPE");
+}
+
+TEST(SpecularWithinBatch, CountsWhatIsNotFinite) {
+  const Emitter light = white(rectangle({0, 0, 1}, {1, 0, 0}, {0, -1, 0}, 1, 1));
+  const auto batch = SpecularWithinBatch::of(light, 1e-3);
+  Views views;
+  for (int i = 0; i < 70; ++i) views.add({0.01 * i, 0, 0}, {0, 0, 1}, {0, 0, 1}, 0.3);
+  views.vx[3] = std::numeric_limits<float>::infinity(), views.alpha[66] = std::numeric_limits<float>::quiet_NaN();
+  Answers found(views.size());
+  const auto without = batch->shares(views.points(), found.to(), -7);
+  ASSERT_TRUE(without);
+  EXPECT_EQ(*without, 2u);
+  EXPECT_EQ(found.of_f0[3], -7);
+  EXPECT_EQ(found.of_f90[66], -7);
+  EXPECT_GT(found.of_f0[4], 0);
+  // Bounds need not be asked for; spans have to fit.
+  Answers other(views.size());
+  ASSERT_TRUE(batch->shares(views.points(), {other.of_f0, other.of_f90, {}, {}}, -7));
+  EXPECT_EQ(other.of_f0, found.of_f0);
+  Answers small(views.size() - 1);
+  EXPECT_EQ(batch->shares(views.points(), small.to(), 0).error().code, "BATCH_SIZES_DIFFER");
+  EXPECT_EQ(batch->shares(views.points(), {other.of_f0, other.of_f90, small.bound_f0, {}}, 0).error().code, "BATCH_SIZES_DIFFER");
+}
+
+}  // namespace
