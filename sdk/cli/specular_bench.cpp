@@ -8,6 +8,7 @@
 
 #include "etendue/specular_batch.h"
 #include "etendue/specular_light.h"
+#include "etendue/specular_method_batch.h"
 #include "etendue/specular_methods.h"
 #include "sdk/src/eval/light_protocol.h"
 
@@ -97,7 +98,9 @@ struct OneByOne {
 std::vector<OneByOne> one_by_one() {
   std::vector<OneByOne> all;
   for (const SpecularMethod& m : specular_methods()) {
-    const bool known = std::any_of(std::begin(in_vectors), std::end(in_vectors), [&](const InVectors& v) { return v.name == m.name; });
+    const auto published = SpecularMethodBatch::names();
+    const bool known = std::any_of(std::begin(in_vectors), std::end(in_vectors), [&](const InVectors& v) { return v.name == m.name; }) ||
+                       std::find(published.begin(), published.end(), m.name) != published.end();
     if (!known) all.push_back({m.name, m.source, false, m.luminance});
   }
   for (const auto& [name, tolerance] : {std::pair{"adaptive 1e-2", 1e-2}, {"adaptive 1e-3", 1e-3}, {"adaptive 1e-4", 1e-4}}) {
@@ -125,15 +128,27 @@ std::optional<MethodFigures> figures_of(const OneByOne& method, const Side& side
   return figures;
 }
 
-struct InVectorsRow {
-  MethodRow row;
-  SpecularRule rule;
-};
-std::vector<InVectorsRow> rows_in_vectors(const Emitter& light) {
-  std::vector<InVectorsRow> all;
-  for (const InVectors& v : in_vectors) {
-    const SpecularRule rule = *SpecularBatch::rule_named(v.name);
-    if (SpecularBatch::of(rule, light)) all.push_back({{v.name, v.note, v.is_ours, false, {}, {}}, rule});
+// What gives the shares of a light by a method in vectors.
+using ShareCall = std::function<void(const SpecularPoints&, std::span<float>, std::span<float>)>;
+template <class Batch>
+std::optional<ShareCall> call_of(const Result<Batch>& batch) {
+  if (!batch) return std::nullopt;
+  return [shared = std::make_shared<Batch>(*batch)](const SpecularPoints& points, std::span<float> of_f0, std::span<float> of_f90) {
+    (void)shared->shares(points, of_f0, of_f90, 0);
+  };
+}
+std::optional<ShareCall> share_call(std::string_view method, const Emitter& light) {
+  if (const auto rule = SpecularBatch::rule_named(method)) return call_of(SpecularBatch::of(*rule, light));
+  return call_of(SpecularMethodBatch::of(method, light));
+}
+// Those that take the light: ours and, by name, what is published.
+std::vector<MethodRow> rows_in_vectors(const Emitter& light) {
+  std::vector<MethodRow> all;
+  for (const InVectors& v : in_vectors)
+    if (share_call(v.name, light)) all.push_back({v.name, v.note, v.is_ours, false, {}, {}});
+  for (const std::string_view name : SpecularMethodBatch::names()) {
+    const SpecularMethod& method = *find_specular_method(name);
+    if (share_call(name, light)) all.push_back({name, method.source, method.source == "Etendue", false, {}, {}});
   }
   return all;
 }
@@ -150,7 +165,7 @@ Result<MethodTable> run_specular_bench(const SpecularBench& bench, const std::fu
   std::vector<MethodRow> in_double;
   in_double.reserve(doubles.size());
   for (const OneByOne& m : doubles) in_double.push_back({m.name, m.note, m.is_ours, true, {}, {}});
-  std::vector<InVectorsRow> vectors;
+  std::vector<MethodRow> vectors;
   for (const bool above : {true, false}) {
     const auto done = [&](double from, double to) {
       return [&report, above, from, to](double part) { return report((above ? 0.0 : 0.5) + 0.5 * (from + (to - from) * part)); };
@@ -166,26 +181,26 @@ Result<MethodTable> run_specular_bench(const SpecularBench& bench, const std::fu
     }
     if (vectors.empty()) vectors = rows_in_vectors(side.lights.front());
     std::vector<MethodCall> calls;
-    for (InVectorsRow& v : vectors) {
-      auto batches = std::make_shared<std::vector<SpecularBatch>>();
-      for (const Emitter& e : side.lights) batches->push_back(*SpecularBatch::of(v.rule, e));
-      calls.push_back([&side, batches](std::size_t i) {
+    for (MethodRow& row : vectors) {
+      std::vector<ShareCall> of_light;
+      for (const Emitter& e : side.lights) of_light.push_back(*share_call(row.method, e));
+      calls.push_back([&side, of_light](std::size_t i) {
         const auto out = [&](std::vector<float>& all) { return std::span(all).subspan(i * bench_batch, bench_batch); };
-        (void)(*batches)[i].shares(side.points(i), out(side.of_f0), out(side.of_f90), 0);
+        of_light[i](side.points(i), out(side.of_f0), out(side.of_f90));
       });
       for (std::size_t i = 0; i < side.lights.size(); ++i) calls.back()(i);  // also warms up
-      figures(v.row) = errors_of(side.values(), side.exact);
+      figures(row) = errors_of(side.values(), side.exact);
     }
     const auto seconds = measured_seconds(calls, side.lights.size(), table.instruction_sets, bench.rounds, rates, done(0.6, 1));
     if (!seconds) return stopped;
     for (std::size_t c = 0; c < vectors.size(); ++c) {
-      MethodFigures& f = figures(vectors[c].row);
+      MethodFigures& f = figures(vectors[c]);
       for (const double s : (*seconds)[c]) f.ns_on.push_back(1e9 * s);
       f.ns = f.ns_on.front();
     }
   }
   for (std::size_t k = 0; k < sets; ++k) table.instruction_sets[k].peak_gflops = median(rates[k]);
-  for (InVectorsRow& v : vectors) table.rows.push_back(std::move(v.row));
+  for (MethodRow& row : vectors) table.rows.push_back(std::move(row));
   for (MethodRow& row : in_double)
     if (!row.above.ns_on.empty() && !row.across.ns_on.empty()) table.rows.push_back(std::move(row));
   find_matches(table.rows, &MethodRow::above);

@@ -6,6 +6,7 @@
 #include "specular_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace etendue::eval {
@@ -38,7 +39,25 @@ constexpr SpecularMethod baseline[] = {
      published<point_rules>},
 };
 
+// Seen along the normal, in the middle of a sphere's highlight, the mean of D over the half vectors that mirror the light to the eye is
+// that of the D whose alpha'^2 is alpha^2 + (R / 2 d)^2: of a light of the solid angle s, alpha^2 + s / (4 pi).
+Rgb wide_point(const LobeView& lobe, const Vec3d& centre, double solid_angle) {
+  const double wider = std::sqrt(lobe.alpha() * lobe.alpha() + solid_angle / (4 * pi));
+  return lobe(centre) * (lobe.density_ratio(centre, wider) * solid_angle);
+}
+template <class Flat>
+Rgb wide_flat_point(const Flat& light, const LobeView& lobe) {
+  return wide_point(lobe, light.centre, light.area() * light.height() / std::pow(length(light.centre), 3));
+}
+Rgb wide_round_point(const SphereView& sphere, const LobeView& lobe) {
+  return wide_point(lobe, sphere.centre, pi * sphere.radius * sphere.radius / dot(sphere.centre, sphere.centre));
+}
+constexpr SpecularRules wide_rules{
+    .rect = wide_flat_point<RectView>, .disk = wide_flat_point<DiskView>, .sphere = wide_round_point, .sun = wide_round_point};
 constexpr SpecularMethod ours[] = {
+    {"wide-point", "Etendue",
+     "A point at the centre, D with alpha^2 + solid angle / (4 pi): the middle of a highlight of a sphere seen along the normal is right.",
+     published<wide_rules>},
     {"moments", "Etendue",
      "Exact but for the slow factor of the lobe, which is taken at four places, and for outlines in pieces; no table.", moments},
 };
