@@ -1,4 +1,4 @@
-#include "etendue/material.h"
+#include "etendue/unshown.h"
 
 #include "textures.h"
 #include "writer.h"
@@ -152,7 +152,7 @@ void report_twin(Writer& writer, const Material& material) {
 
 void report_model(Writer& writer, const Material& material) {
   if (writer.parts == MitsubaParts::built_in) report_twin(writer, material);
-  for (const Unshown& unshown : unshown_of(material)) writer.losses.add(name_for_losses(material) + ": " + unshown.what, unshown.effect);
+  for (const Loss& loss : unshown_losses(material)) writer.losses.add(name_for_losses(material) + ": " + loss.what, loss.effect);
 }
 
 Status add_shaded(Writer& writer, pugi::xml_node parent, const Material& material) {

@@ -1,5 +1,7 @@
 #include "writer.h"
 
+#include "etendue/unshown.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -121,7 +123,7 @@ void report_losses(Writer& writer, const Material& m) {
   if (m.specular_gloss_texture) lose("the texture of specular colour and glossiness", "the factors alone say how it reflects");
   if (m.fallback) lose("its metallic-roughness fallback", "left out");
   if (m.occlusion) lose("its occlusion texture", "left out: it dims indirect light only");
-  for (const Unshown& unshown : unshown_of(m)) lose(unshown.what, unshown.effect);
+  for (const Loss& loss : unshown_losses(m)) lose(loss.what.c_str(), loss.effect.c_str());
   if (m.normal_map) lose("its normal map", "the surface is smooth");
   if (m.alpha_cutoff) lose("its alpha cutoff", "the surface has no holes");
   if (m.base_alpha != 1) lose("the alpha of its base colour", "the surface is opaque");

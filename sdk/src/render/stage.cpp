@@ -1,5 +1,6 @@
 #include "stage.h"
 #include "emitters.h"
+#include "etendue/unshown.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,8 +61,8 @@ Result<std::unique_ptr<Stage>> Stage::build(const Scene& scene, const RenderOpti
   stage->mitsuba_rays_ = options.mitsuba_model;
   for (const NamedPaint& known : stage->paints_) {
     const Material& material = known.paint.material;
-    for (const Unshown& unshown : unshown_of(material))
-      diagnostics.warning("NOT_SHOWN", "material '" + material.name + "': " + unshown.what + ": " + unshown.effect,
+    for (const Loss& loss : unshown_losses(material))
+      diagnostics.warning("NOT_SHOWN", "material '" + material.name + "': " + loss.what + ": " + loss.effect,
                           {scene.file, 0, 0, material.source});
   }
   if (stage->lights_.empty()) diagnostics.warning("NO_LIGHT", "no light of the scene emits: the picture is black", {scene.file, 0, 0, {}});
