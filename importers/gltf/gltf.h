@@ -5,5 +5,7 @@
 #include "etendue/io.h"
 
 namespace etendue {
-std::unique_ptr<Importer> make_gltf_importer();
-}
+// `default_scene`: the materials that its surfaces show. `all`: every material of the document, for whoever converts them.
+enum class GltfMaterials { default_scene, all };
+std::unique_ptr<Importer> make_gltf_importer(GltfMaterials materials = GltfMaterials::default_scene);
+}  // namespace etendue

@@ -16,6 +16,8 @@ namespace {
 
 class GltfImporter final : public Importer {
  public:
+  explicit GltfImporter(GltfMaterials materials) : materials_(materials) {}
+
   FormatInfo describe() const override {
     return {"gltf", "glTF 2.0", {".gltf", ".glb"}, "Khronos' scene format, JSON or binary, with its light extensions"};
   }
@@ -41,7 +43,9 @@ class GltfImporter final : public Importer {
       imported.scene.format = "gltf";
       if (options.need == Need::everything) gltf::check_data(**asset);
       gltf::name_unshown(**asset);
-      gltf::Nodes(**asset, imported.scene).read_default_scene();
+      gltf::Nodes nodes(**asset, imported.scene);
+      nodes.read_default_scene();
+      if (materials_ == GltfMaterials::all) nodes.read_every_material();
       if (const auto unitless = suspected_compat_lights((*asset)->model().asset.generator, imported.scene.lights))
         (*asset)->warning(unitless->code, unitless->text + "; " + unitless->hint, unitless->where.pointer);
       gltf::carry(**asset, imported.scene);
@@ -53,10 +57,13 @@ class GltfImporter final : public Importer {
       return Error{"READ_FAILED", std::string("the file cannot be read: ") + e.what(), {file.string(), 0, 0, ""}, {}, {}};
     }
   }
+
+ private:
+  GltfMaterials materials_;
 };
 
 }  // namespace
 
-std::unique_ptr<Importer> make_gltf_importer() { return std::make_unique<GltfImporter>(); }
+std::unique_ptr<Importer> make_gltf_importer(GltfMaterials materials) { return std::make_unique<GltfImporter>(materials); }
 
 }  // namespace etendue

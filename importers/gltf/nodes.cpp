@@ -32,6 +32,10 @@ void Nodes::read_default_scene() {
   if (wants(Need::lights)) add_environment();
 }
 
+void Nodes::read_every_material() {
+  for (std::size_t i = 0; i < asset_.model().materials.size(); ++i) materials_.at(static_cast<int>(i));
+}
+
 void Nodes::visit(int node, const Transform& parent_to_world, int depth) {
   if (depth > asset_.options().max_depth) {
     const auto limit = static_cast<std::uint64_t>(std::max(asset_.options().max_depth, 0));

@@ -18,6 +18,8 @@ class Nodes {
   Nodes(Asset& asset, Scene& scene);
 
   void read_default_scene();
+  // Those that no surface of it shows come behind the others.
+  void read_every_material();
 
  private:
   void visit(int node, const Transform& parent_to_world, int depth);

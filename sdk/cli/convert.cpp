@@ -7,10 +7,14 @@
 #include <thread>
 
 #include "comparison_text.h"
+#include "etendue/material_conversion.h"
+
 #include "exporters/eulumdat/eulumdat.h"
+#include "exporters/gltf/gltf.h"
 #include "exporters/ies/ies.h"
 #include "exporters/mitsuba/mitsuba.h"
 #include "exporters/rig/rig.h"
+#include "importers/gltf/gltf.h"
 #include "importers/photometric_lights/photometric_lights.h"
 #include "limits.h"
 #include "verbs.h"
@@ -21,9 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string in, out, to, loss, size = "512x512", camera, lights, mute;
+  std::string in, out, to, loss, size = "512x512", camera, lights, mute, materials;
   ImportOptions import;
-  int depth = 2;
+  int depth = 2, bits = 8;
   unsigned samples = 1024, jobs = 1;
   bool force = false;
 };
@@ -33,6 +37,7 @@ struct Converted {
   std::optional<Error> error;
   std::vector<fs::path> files;
   LossReport losses;
+  Json materials = Json::array();  // that were converted
   Diagnostics diagnostics;
 };
 
@@ -41,6 +46,7 @@ const Registry& exporters() {
   static const Registry* const built_in = [] {
     auto* const formats = new Registry;  // lives as long as the program
     formats->add(make_rig_exporter());
+    formats->add(make_gltf_exporter());
     formats->add(make_mitsuba_exporter());
     formats->add(make_ies_exporter());
     formats->add(make_eulumdat_exporter());
@@ -72,7 +78,46 @@ Result<ExportOptions> export_options(Scene& scene, const Options& options, Size 
   return result;
 }
 
-void convert_one(Converted& job, const Options& options, Size size) {
+// New textures of one asset: in NAME_textures where the format refers to files where they lie, else only until it has taken them over.
+class TextureFolder {
+ public:
+  TextureFolder(const fs::path& out, bool stays) : stays_(stays), path_(out) {
+    const std::string name = out.filename().string();
+    path_.replace_filename(stays ? name.substr(0, name.find('.')) + "_textures" : "." + name + ".textures");
+  }
+  TextureFolder(const TextureFolder&) = delete;
+  TextureFolder& operator=(const TextureFolder&) = delete;
+  ~TextureFolder() {
+    std::error_code ignored;
+    if (!stays_) fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  bool stays_;
+  fs::path path_;
+};
+
+std::optional<MaterialModel> model_of(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  return name == "metal-rough" ? MaterialModel::metal_rough : MaterialModel::spec_gloss;
+}
+
+// The materials that were converted, as --json names them.
+Json to_json(const MaterialChange& change, const Scene& scene) {
+  const auto deviation = [](const Deviation& linear, const Deviation& steps) {
+    return Json{{"rms", linear.rms}, {"max", linear.max}, {"rms_8_bit_steps", steps.rms}, {"max_8_bit_steps", steps.max}};
+  };
+  const auto reader = [&](const ReaderDeviation& d) {
+    return Json{{"diffuse", deviation(d.diffuse, d.diffuse_steps)}, {"f0", deviation(d.f0, d.f0_steps)}};
+  };
+  return {{"name", scene.materials[change.material].name},
+          {"texels", change.texels},
+          {"core", reader(change.core)},
+          {"full", reader(change.full)}};
+}
+
+void convert_one(Converted& job, const Options& options, Size size, Progress* progress) {
   if (fs::exists(job.out) && !options.force) {
     job.error = Error{"USAGE", fmt::format("{} is there already", job.out.string()), {}, "--force replaces it", {}};
     return;
@@ -81,7 +126,10 @@ void convert_one(Converted& job, const Options& options, Size size) {
   if (!exporter) return void(job.error = exporter.error());
   const auto importer = importers().importer_for(job.in);
   if (!importer) return void(job.error = importer.error());
-  Result<Imported> imported = (*importer)->read(job.in, options.import);
+  const auto model = model_of(options.materials);
+  static const std::unique_ptr<Importer> all_materials = make_gltf_importer(GltfMaterials::all);
+  const bool is_gltf = (*importer)->describe().id == all_materials->describe().id;
+  Result<Imported> imported = (model && is_gltf ? all_materials.get() : *importer)->read(job.in, options.import);
   if (!imported) return void(job.error = imported.error());
   imported->diagnostics.append(read_photometric_lights(imported->scene));
   job.diagnostics.append(imported->diagnostics);
@@ -89,18 +137,25 @@ void convert_one(Converted& job, const Options& options, Size size) {
     job.error = Error{"INPUT_INVALID", fmt::format("{} has errors and is not converted", job.in.string()), {}, "", {}};
     return;
   }
+  const TextureFolder textures(job.out, (*exporter)->describe().id == "rig");
+  if (model) {
+    auto conversion = convert_materials(imported->scene, {*model, options.bits, textures.path(), options.jobs > 1 ? 1u : 0u, progress});
+    if (!conversion) return void(job.error = conversion.error());
+    job.losses = std::move(conversion->losses);
+    for (const MaterialChange& change : conversion->changes) job.materials.push_back(to_json(change, imported->scene));
+  }
   const auto chosen = export_options(imported->scene, options, size);
   if (!chosen) return void(job.error = chosen.error());
   Result<Exported> exported = (*exporter)->write(imported->scene, job.out, *chosen);
   if (!exported) return void(job.error = exported.error());
   job.files = std::move(exported->files);
-  job.losses = std::move(exported->losses);
+  for (Loss& loss : exported->losses.losses) job.losses.losses.push_back(std::move(loss));
   job.diagnostics.append(exported->diagnostics);
 }
 
 // A folder's assets, each with the same name in the output folder and the new extension.
 Result<std::vector<Converted>> jobs_of(const Options& options) {
-  if (!fs::is_directory(options.in)) return std::vector<Converted>{{options.in, options.out, {}, {}, {}, {}}};
+  if (!fs::is_directory(options.in)) return std::vector<Converted>{{options.in, options.out, {}, {}, {}, Json::array(), {}}};
   if (options.to.empty()) return Error{"USAGE", "a folder needs --to, as in --to .xml", {}, "", {}};
   std::vector<Converted> jobs;
   for (const auto& entry : fs::recursive_directory_iterator(options.in)) {
@@ -110,7 +165,8 @@ Result<std::vector<Converted>> jobs_of(const Options& options) {
       for (const std::string& extension : importer->describe().extensions) {
         if (!name.ends_with(extension) || name.size() == extension.size()) continue;
         const fs::path folder = fs::path(options.out) / fs::relative(entry.path().parent_path(), options.in);
-        jobs.push_back({entry.path(), folder / (name.substr(0, name.size() - extension.size()) + options.to), {}, {}, {}, {}});
+        jobs.push_back(
+            {entry.path(), folder / (name.substr(0, name.size() - extension.size()) + options.to), {}, {}, {}, Json::array(), {}});
       }
     }
   }
@@ -124,7 +180,7 @@ void run_jobs(std::vector<Converted>& jobs, const Options& options, Size size, B
   std::mutex reporting;
   const auto work = [&] {
     for (std::size_t i = next++; i < jobs.size() && !interrupted(); i = next++) {
-      convert_one(jobs[i], options, size);
+      convert_one(jobs[i], options, size, jobs.size() == 1 ? &bar : nullptr);
       const std::scoped_lock lock(reporting);
       bar.report("convert", static_cast<double>(++done) / static_cast<double>(jobs.size()));
     }
@@ -162,6 +218,7 @@ int run_convert(const Common& common, const Options& options) {
       item["files"] = Json::array();
       for (const fs::path& file : job.files) item["files"].push_back(file.string());
       item["losses"] = to_json(job.losses);
+      if (!job.materials.empty()) item["materials"] = job.materials;
       losses[job.out.string()] = to_json(job.losses);
       session.print(fmt::format("{}: {} file{}, {} loss{}", job.out.string(), job.files.size(), job.files.size() == 1 ? "" : "s",
                                 job.losses.losses.size(), job.losses.losses.size() == 1 ? "" : "es"));
@@ -183,7 +240,7 @@ void add_convert(CLI::App& app, const Common& common, Run& run) {
   CLI::App* const verb = app.add_subcommand("convert", "Any format in, any format out, with a report of what is lost");
   auto options = std::make_shared<Options>();
   verb->add_option("IN", options->in, "A light rig or glTF file, or a folder of them")->required();
-  verb->add_option("OUT", options->out, "A file (.xml, .rig.json), or a folder")->required();
+  verb->add_option("OUT", options->out, "A file (.xml, .rig.json, .glb, .gltf), or a folder")->required();
   verb->add_option("--to", options->to, "For a folder: the extension of what is written, as .xml");
   verb->add_option("--loss", options->loss, "Write the losses to this JSON file as well");
   verb->add_option("--depth", options->depth, "Mitsuba's max_depth: 2 is direct light, -1 has no end")->capture_default_str();
@@ -193,10 +250,14 @@ void add_convert(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--lights", options->lights, "Only these lights emit, by name: a,b");
   verb->add_option("--mute", options->mute, "All lights but these emit");
   verb->add_option("--jobs", options->jobs, "Files of a folder at a time")->capture_default_str()->check(CLI::Range(1, 256));
+  verb->add_option("--materials", options->materials, "All materials in one of glTF's models: metal-rough or spec-gloss")
+      ->check(CLI::IsMember({"metal-rough", "spec-gloss"}));
+  verb->add_option("--bits", options->bits, "Of a channel of new textures: 8 or 16")->capture_default_str()->check(CLI::IsMember({8, 16}));
   verb->add_flag("--force", options->force, "Replace what is there");
   add_limits(*verb, options->import);
   verb->footer(
-      "\nExamples:\n  etendue convert kitchen.rig.json kitchen.xml\n  etendue convert assets/ scenes/ --to .xml --jobs 4 --loss "
+      "\nExamples:\n  etendue convert kitchen.rig.json kitchen.xml\n  etendue convert chair.glb chair_mr.glb --materials metal-rough\n  "
+      "etendue convert assets/ scenes/ --to .xml --jobs 4 --loss "
       "losses.json");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_convert(common, *options); }; });
 }

@@ -11,6 +11,8 @@
 #include <new>
 #include <system_error>
 
+#include "whole_file.h"
+
 namespace etendue {
 namespace {
 
@@ -85,8 +87,10 @@ fs::path temporary_beside(const fs::path& file) {
 }
 
 // Whether all bytes reached the file, buffers included.
-bool write_and_close(File file, std::span<const std::byte> bytes) {
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+bool write_and_close(File file, std::span<const std::span<const std::byte>> pieces) {
+  const bool written = std::all_of(pieces.begin(), pieces.end(), [&](std::span<const std::byte> piece) {
+    return std::fwrite(piece.data(), 1, piece.size(), file.get()) == piece.size();
+  });
   return std::fclose(file.release()) == 0 && written;
 }
 
@@ -153,7 +157,9 @@ Result<std::vector<std::byte>> read_file(const fs::path& file, std::uint64_t max
   }
 }
 
-Status write_file(const fs::path& file, std::span<const std::byte> bytes) {
+Status write_file(const fs::path& file, std::span<const std::byte> bytes) { return write_file(file, std::span(&bytes, 1)); }
+
+Status write_file(const fs::path& file, std::span<const std::span<const std::byte>> pieces) {
   std::error_code code;
   const fs::file_status status = fs::status(file, code);
   errno = 0;
@@ -161,13 +167,13 @@ Status write_file(const fs::path& file, std::span<const std::byte> bytes) {
     // Devices and pipes are written to, never replaced; a folder cannot be opened.
     File device(std::fopen(file.string().c_str(), "wb"));
     if (!device) return unwritable(file, reason_of(errno));
-    if (!write_and_close(std::move(device), bytes)) return unwritable(file, reason_of(errno));
+    if (!write_and_close(std::move(device), pieces)) return unwritable(file, reason_of(errno));
     return Done{};
   }
   const fs::path temporary = temporary_beside(file);
   File opened(std::fopen(temporary.string().c_str(), "wbx"));
   if (!opened) return unwritable(file, reason_of(errno));
-  if (!write_and_close(std::move(opened), bytes)) {
+  if (!write_and_close(std::move(opened), pieces)) {
     const Error error = unwritable(file, reason_of(errno));
     fs::remove(temporary, code);
     return error;

@@ -2,8 +2,7 @@
 
 #include "etendue/srgb.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include "image_file.h"
 
 #include <algorithm>
 #include <memory>
@@ -26,15 +25,6 @@ const char* name_for_reader(std::span<const std::uint8_t> bytes) {
   return nullptr;
 }
 
-std::string shown_name(const ImageRef& image) {
-  if (!image.file.empty()) return image.file;
-  return image.name.empty() ? "embedded image" : image.name;
-}
-
-Error unreadable(const ImageRef& image, std::string text) {
-  return {"FILE_UNREADABLE", "expected an image that OpenImageIO can read: " + std::move(text), {shown_name(image), 0, 0, {}}, {}, {}};
-}
-
 // Numbers of the file to red, green, blue, alpha.
 void spread(std::span<const float> values, const OIIO::ImageSpec& spec, bool srgb, std::span<float> rgba) {
   const auto channels = static_cast<std::size_t>(spec.nchannels);
@@ -49,17 +39,21 @@ void spread(std::span<const float> values, const OIIO::ImageSpec& spec, bool srg
   }
 }
 
-struct Opened {
-  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;  // outlives its reader
-  std::unique_ptr<OIIO::ImageInput> input;
-  OIIO::ImageSpec spec;
-  bool srgb = false;
-};
+}  // namespace
 
-Result<Opened> open(const ImageRef& image, Encoding encoding, std::uint64_t max_pixels) {
+std::string shown_name(const ImageRef& image) {
+  if (!image.file.empty()) return image.file;
+  return image.name.empty() ? "embedded image" : image.name;
+}
+
+Error unreadable(const ImageRef& image, std::string text) {
+  return {"FILE_UNREADABLE", "expected an image that OpenImageIO can read: " + std::move(text), {shown_name(image), 0, 0, {}}, {}, {}};
+}
+
+Result<ImageFile> open_image(const ImageRef& image, Encoding encoding, std::uint64_t max_pixels) {
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;  // colours as stored, not multiplied by alpha
-  Opened out;
+  ImageFile out;
   if (image.embedded) {
     const char* name = name_for_reader({image.embedded.data(), image.embedded.size()});
     if (name == nullptr) return unreadable(image, "the first bytes are those of no known format");
@@ -90,10 +84,8 @@ Result<Opened> open(const ImageRef& image, Encoding encoding, std::uint64_t max_
   return out;
 }
 
-}  // namespace
-
 Result<DecodedImage> decode(const ImageRef& image, Encoding encoding, std::uint64_t max_pixels) {
-  Result<Opened> opened = open(image, encoding, max_pixels);
+  Result<ImageFile> opened = open_image(image, encoding, max_pixels);
   if (!opened) return opened.error();
   const OIIO::ImageSpec& spec = opened->spec;
   DecodedImage out{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}};
@@ -107,7 +99,7 @@ Result<DecodedImage> decode(const ImageRef& image, Encoding encoding, std::uint6
 }
 
 Status decode_rows(const ImageRef& image, Encoding encoding, const std::function<void(const ImageRow&)>& use, std::uint64_t max_pixels) {
-  Result<Opened> opened = open(image, encoding, max_pixels);
+  Result<ImageFile> opened = open_image(image, encoding, max_pixels);
   if (!opened) return opened.error();
   const OIIO::ImageSpec& spec = opened->spec;
   const bool tiled = spec.tile_width > 0;

@@ -1,0 +1,32 @@
+// An image's linear values band by band from the top, in the order in which somebody asks for them.
+#pragma once
+
+#include "image_file.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+class ImageRows {
+ public:
+  static Result<ImageRows> open(const ImageRef& image, Encoding encoding, std::uint64_t max_pixels);
+
+  std::uint32_t width() const { return static_cast<std::uint32_t>(file_.spec.width); }
+  std::uint32_t height() const { return static_cast<std::uint32_t>(file_.spec.height); }
+  bool has_alpha() const { return file_.spec.nchannels == 2 || file_.spec.nchannels >= 4; }
+
+  // The next rows: 4 channels each, alpha 1 where the file has none. A number that is not finite is the error PICTURE_UNSUITABLE, with its
+  // place.
+  Status read(std::uint32_t rows, std::span<float> rgba);
+
+ private:
+  ImageRef image_;
+  ImageFile file_;
+  std::uint32_t next_ = 0;
+  std::vector<float> colour_of_code_, alpha_of_code_;  // of integers of 8 and 16 bits; empty for others
+  std::vector<std::uint8_t> bytes_;
+};
+
+}  // namespace etendue

@@ -1,0 +1,262 @@
+// One pair of colours for two readers, and whole materials with textures.
+#include "etendue/material_conversion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "etendue/picture.h"
+#include "gltf_builder.h"
+#include "picture/png_rows.h"
+
+namespace etendue {
+namespace {
+
+using test::Folder;
+
+double squared(const ColourPair& a, const ColourPair& b) {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) sum += std::pow(a.diffuse[c] - b.diffuse[c], 2) + std::pow(a.f0[c] - b.f0[c], 2);
+  return sum;
+}
+double rms(const ColourPair& a, const ColourPair& b) { return std::sqrt(squared(a, b) / 6); }
+
+TEST(MetalRoughOf, WhatMetalRoughnessCanSayIsExactInBothReaders) {
+  for (const double metal : {0.0, 1.0}) {
+    const MetalRoughColours said{{0.8, 0.3, 0.1}, metal, {0.04, 0.04, 0.04}};
+    const ColourPair pair = in_core_reader(said);
+    const MetalRoughColours found = metal_rough_of(pair);
+    EXPECT_EQ(found.metal, metal);
+    EXPECT_LT(rms(in_core_reader(found), pair), 1e-9);
+    EXPECT_LT(rms(in_full_reader(found), pair), 1e-9);
+  }
+}
+
+TEST(MetalRoughOf, ADielectricOfAnyF0IsExactInTheFullReader) {
+  const ColourPair ruby{{0.4, 0.02, 0.05}, {0.08, 0.07, 0.09}};
+  const MetalRoughColours found = metal_rough_of(ruby);
+  // The weight of 100 leaves a hundredth of what the core-only reader would move the diffuse colour by.
+  EXPECT_LT(rms(in_full_reader(found), ruby), 1e-3);
+}
+
+// With the weight w the sum of both can be no more than any other choice's: the optimum of the core alone, with the best dielectric f0.
+TEST(MetalRoughOf, IsNoWorseThanTheCoresOptimumInTheWeightedSum) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < 2000; ++i) {
+    ColourPair pair;
+    for (int c = 0; c < 3; ++c) pair.f0[c] = std::pow(uniform(random), 3);
+    const double left = 1 - std::max({pair.f0.x, pair.f0.y, pair.f0.z});
+    for (int c = 0; c < 3; ++c) pair.diffuse[c] = left * uniform(random);
+    const MetalRoughColours found = metal_rough_of(pair);
+    const DisneyColours core = fit_disney(pair, DielectricF0::core).value;
+    MetalRoughColours other{core.base_colour, core.metal, {0.04, 0.04, 0.04}};
+    for (int c = 0; c < 3 && core.metal < 1; ++c)
+      other.dielectric_f0[c] = std::clamp((pair.f0[c] - core.metal * other.base[c]) / (1 - core.metal), 0.0, 1.0);
+    EXPECT_LE(metal_rough_cost(found, pair), metal_rough_cost(other, pair) + 6.1e-8) << i;
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_GE(found.base[c], 0);
+      EXPECT_LE(found.base[c], 1);
+      EXPECT_GE(found.dielectric_f0[c], 0);
+      EXPECT_LE(found.dielectric_f0[c], 1);
+    }
+  }
+}
+
+TEST(MetalRoughOf, AbsurdInputGivesFiniteNumbers) {
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double x : {inf, -inf, nan, 1e300}) {
+    const MetalRoughColours found = metal_rough_of({{x, 0, 1}, {0, x, x}});
+    EXPECT_TRUE(std::isfinite(metal_rough_cost(found, {{0, 0, 0}, {0, 0, 0}})));
+  }
+}
+
+// Codes of a picture, row by row.
+std::string write_png(const Folder& folder, const std::string& name, std::uint32_t width, std::uint32_t height, int channels,
+                      const std::function<std::uint16_t(std::uint32_t x, std::uint32_t y, int channel)>& code, int bits = 8) {
+  const auto file = folder.path() / name;
+  auto png = PngRows::open(file, width, height, channels, bits);
+  EXPECT_TRUE(png);
+  std::vector<std::uint16_t> codes;
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 0; x < width; ++x)
+      for (int c = 0; c < channels; ++c) codes.push_back(code(x, y, c));
+  EXPECT_TRUE(png->write(height, codes));
+  EXPECT_TRUE(png->close());
+  return file.string();
+}
+
+// A pair of pictures of random colours of dielectrics and metals.
+Scene textured(const Folder& folder, std::uint32_t diffuse_side, std::uint32_t specular_side) {
+  std::mt19937 random(7);
+  const auto any = [&](int most) { return static_cast<std::uint16_t>(random() % static_cast<unsigned>(most)); };
+  Scene scene;
+  scene.images.push_back(
+      {write_png(folder, "diffuse.png", diffuse_side, diffuse_side, 4, [&](auto, auto, int c) { return c == 3 ? any(256) : any(200); }),
+       {},
+       "",
+       "d"});
+  scene.images.push_back(
+      {write_png(folder, "specular.png", specular_side, specular_side, 4,
+                 [&](auto, auto, int c) -> std::uint16_t { return c == 3 ? any(256) : static_cast<std::uint16_t>(50 + any(30)); }),
+       {},
+       "",
+       "s"});
+  Material material;
+  material.name = "thing";
+  material.model = SpecularGlossiness{{0.9, 1, 0.8}, {1, 1, 0.9}, 0.7};
+  material.base_colour_texture = Texture{0, Encoding::srgb};
+  material.specular_gloss_texture = Texture{1, Encoding::srgb};
+  material.base_alpha = 0.5;
+  scene.materials.push_back(material);
+  return scene;
+}
+
+struct Read {
+  ColourPair core, full;
+  double roughness, alpha;
+};
+Read read_metal_rough(const Scene& scene, const Material& m, Vec2d uv) {
+  const auto at = [&](const std::optional<Texture>& texture) {
+    return texture ? sample(*decode(scene.images[texture->image], texture->encoding), *texture, uv) : Rgba{1, 1, 1, 1};
+  };
+  const auto model = std::get<MetalRough>(m.model);
+  const Rgba b = at(m.base_colour_texture), mr = at(m.metal_rough_texture), k = at(m.lobes.specular->colour_texture);
+  const Rgb colour = m.lobes.specular->colour;
+  const MetalRoughColours colours{{b.r * model.base_colour.x, b.g * model.base_colour.y, b.b * model.base_colour.z},
+                                  mr.b * model.metallic,
+                                  {0.04 * k.r * colour.x, 0.04 * k.g * colour.y, 0.04 * k.b * colour.z}};
+  return {in_core_reader(colours), in_full_reader(colours), mr.g * model.roughness, b.a * m.base_alpha};
+}
+
+TEST(ConvertMaterials, TexturesSayWhatTheyDidInTheFullReader) {
+  for (const int bits : {8, 16}) {
+    const Folder folder;
+    Scene scene = textured(folder, 16, 16);
+    const Scene before = scene;
+    const auto done = convert_materials(scene, {MaterialModel::metal_rough, bits, folder.path() / "new", 2, nullptr});
+    ASSERT_TRUE(done) << done.error().text;
+    ASSERT_EQ(done->changes.size(), 1u);
+    // Steps of sRGB are at most .009 in linear light, of 16 bits 257 times finer; uniform errors of a step have an rms of step / sqrt 12.
+    EXPECT_LT(done->changes[0].full.diffuse.rms, bits == 8 ? 2.6e-3 : 1e-4);
+    EXPECT_LT(done->changes[0].full.f0.rms, bits == 8 ? 1e-3 : 1e-4);
+    double diffuse = 0;
+    for (std::uint32_t y = 0; y < 16; ++y) {
+      for (std::uint32_t x = 0; x < 16; ++x) {
+        const Vec2d uv{(x + 0.5) / 16, (y + 0.5) / 16};
+        const Rgba d = sample(*decode(before.images[0], Encoding::srgb), *before.materials[0].base_colour_texture, uv);
+        const Rgba s = sample(*decode(before.images[1], Encoding::srgb), *before.materials[0].specular_gloss_texture, uv);
+        const TwoColour wanted = two_colour_of(SpecularGlossiness{{d.r * 0.9, d.g, d.b * 0.8}, {s.r, s.g, s.b * 0.9}, s.a * 0.7});
+        const Read found = read_metal_rough(scene, scene.materials[0], uv);
+        for (int c = 0; c < 3; ++c) diffuse += std::pow(found.full.diffuse[c] - wanted.diffuse[c], 2);
+        EXPECT_NEAR(found.roughness, wanted.roughness, 0.51 / (bits == 8 ? 255 : 65535));
+        EXPECT_NEAR(found.alpha, d.a * 0.5, 1e-6);
+      }
+    }
+    // The report is of what the files hold.
+    EXPECT_NEAR(std::sqrt(diffuse / (3 * 256)), done->changes[0].full.diffuse.rms, 1e-6);
+  }
+}
+
+TEST(ConvertMaterials, ThreadsChangeNothing) {
+  const Folder folder;
+  Scene one = textured(folder, 100, 100), three = one;
+  ASSERT_TRUE(convert_materials(one, {MaterialModel::metal_rough, 8, folder.path() / "one", 1, nullptr}));
+  ASSERT_TRUE(convert_materials(three, {MaterialModel::metal_rough, 8, folder.path() / "three", 3, nullptr}));
+  ASSERT_EQ(one.images.size(), three.images.size());
+  for (std::size_t i = 2; i < one.images.size(); ++i) {
+    const auto a = decode(one.images[i], Encoding::linear), b = decode(three.images[i], Encoding::linear);
+    ASSERT_TRUE(a && b);
+    EXPECT_EQ(a->rgba, b->rgba);
+  }
+}
+
+TEST(ConvertMaterials, ASmallPictureIsLookedUpForALargeOne) {
+  for (const std::uint32_t side : {1u, 5u}) {
+    const Folder folder;
+    Scene scene = textured(folder, 16, side);
+    ASSERT_TRUE(convert_materials(scene, {MaterialModel::metal_rough, 8, folder.path() / "new", 1, nullptr}));
+    const auto base = decode(scene.images[scene.materials[0].base_colour_texture->image], Encoding::srgb);
+    ASSERT_TRUE(base);
+    EXPECT_EQ(base->width, 16u);
+    EXPECT_EQ(base->height, 16u);
+  }
+}
+
+TEST(ConvertMaterials, MaterialsWithTheSameTexturesShareTheNewOnes) {
+  const Folder folder;
+  Scene scene = textured(folder, 8, 8);
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].name = "other";
+  const auto done = convert_materials(scene, {MaterialModel::metal_rough, 8, folder.path() / "new", 1, nullptr});
+  ASSERT_TRUE(done);
+  EXPECT_EQ(done->images_written, 3u);
+  EXPECT_EQ(scene.materials[0].base_colour_texture, scene.materials[1].base_colour_texture);
+}
+
+TEST(ConvertMaterials, OneSpecularColourLeavesTheDiffusePicture) {
+  const Folder folder;
+  Scene scene = textured(folder, 8, 8);
+  scene.materials[0].specular_gloss_texture.reset();
+  scene.materials[0].model = SpecularGlossiness{{1, 1, 1}, {0.04, 0.04, 0.04}, 0.5};
+  const auto done = convert_materials(scene, {MaterialModel::metal_rough, 8, folder.path() / "new", 1, nullptr});
+  ASSERT_TRUE(done);
+  EXPECT_EQ(done->images_written, 0u);
+  EXPECT_EQ(scene.materials[0].base_colour_texture->image, 0u);
+  EXPECT_NEAR(std::get<MetalRough>(scene.materials[0].model).base_colour.x, 0.96, 1e-12);
+  EXPECT_FALSE(scene.materials[0].lobes.specular);
+}
+
+// There and back: each way rounds to 16 bits once, and the diffuse colour is divided by 1 - max f0 > .3.
+TEST(ConvertMaterials, ThereAndBackIsTheSameMaterial) {
+  const Folder folder;
+  Scene scene = textured(folder, 16, 16);
+  const Scene before = scene;
+  ASSERT_TRUE(convert_materials(scene, {MaterialModel::metal_rough, 16, folder.path() / "there", 1, nullptr}));
+  const auto back = convert_materials(scene, {MaterialModel::spec_gloss, 16, folder.path() / "back", 1, nullptr});
+  ASSERT_TRUE(back);
+  EXPECT_LT(back->changes[0].full.f0.rms, 1e-4);
+  const Material& material = scene.materials[0];
+  const auto model = std::get<SpecularGlossiness>(material.model);
+  EXPECT_TRUE(material.fallback);
+  const auto diffuse = decode(scene.images[material.base_colour_texture->image], Encoding::srgb);
+  const auto old = decode(before.images[0], Encoding::srgb);
+  ASSERT_TRUE(diffuse && old);
+  const double factors[3] = {0.9, 1, 0.8};
+  for (std::size_t i = 0; i < old->rgba.size(); ++i) {
+    if (i % 4 == 3)
+      EXPECT_NEAR(diffuse->rgba[i], old->rgba[i], 1e-6);
+    else
+      EXPECT_NEAR(diffuse->rgba[i] * model.diffuse[static_cast<int>(i % 4)], old->rgba[i] * factors[i % 4], 2e-3);
+  }
+}
+
+TEST(ConvertMaterials, BadPicturesAreLocatedErrors) {
+  const Folder folder;
+  Scene scene = textured(folder, 8, 8);
+  scene.images[1].file = (folder.path() / "missing.png").string();
+  const auto missing = convert_materials(scene, {MaterialModel::metal_rough, 8, folder.path() / "new", 1, nullptr});
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, "FILE_UNREADABLE");
+  EXPECT_NE(missing.error().where.file.find("missing.png"), std::string::npos);
+
+  Picture picture;
+  picture.width = picture.height = 8;
+  picture.add("", 3).pixels[3 * (8 * 2 + 5)] = std::numeric_limits<float>::quiet_NaN();
+  const auto exr = folder.path() / "nan.exr";
+  ASSERT_TRUE(write_exr(picture, exr));
+  scene.images[1].file = exr.string();
+  for (const std::uint32_t side : {8u, 16u}) {
+    Scene other = textured(folder, side, 8);
+    other.images[1].file = exr.string();
+    const auto found = convert_materials(other, {MaterialModel::metal_rough, 8, folder.path() / "new", 1, nullptr});
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().code, "PICTURE_UNSUITABLE");
+    EXPECT_NE(found.error().text.find("(5, 2)"), std::string::npos) << found.error().text;
+  }
+}
+
+}  // namespace
+}  // namespace etendue
