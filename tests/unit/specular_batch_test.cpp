@@ -134,6 +134,34 @@ TEST(SpecularBatch, OfRoundLightsIsTheTransformedCosineInDouble) {
     }
   });
 }
+// Of the size of the real one on narrow lobes too, of which it fills much.
+TEST(SpecularBatch, OfSunsIsTheTransformedCosineInDouble) {
+  on_each_instruction_set([] {
+    for (const char* name : {"ltc", "ltc-two-lobes", "ltc-two-caps"}) {
+      Random random(7);
+      double errors = 0, sum = 0;
+      for (const double radius : {0.00465, 0.1, 0.8}) {
+        const Vec3d towards = random.direction();
+        const Emitter sun{DistantEmitter{towards, {2, 2, 2}, radius}, {}, false, {}, {}};
+        Views views;
+        for (int k = 0; k < 300; ++k) {
+          const Placement p{sun, random.direction(), random.direction(), towards};
+          views.add(p.position, p.normal, view_of(p, random), std::pow(10.0, random.uniform(-3, 0)));
+        }
+        const auto batch = SpecularBatch::of(*SpecularBatch::rule_named(name), sun);
+        ASSERT_TRUE(batch);
+        Answers found(views.alpha.size());
+        ASSERT_TRUE(batch->shares(views.points(), found.of_f0, found.of_f90, -1));
+        for (std::size_t k = 0; k < views.alpha.size(); ++k) {
+          const double expected = find_specular_method(name)->luminance(sun, views.point(k, 0.5, 1))->x;
+          const double value = batch->scale().x * (0.5 * static_cast<double>(found.of_f0[k]) + static_cast<double>(found.of_f90[k]));
+          errors += std::abs(value - expected) / batch->scale().x, sum += expected / batch->scale().x;
+        }
+      }
+      EXPECT_LT(errors, 2e-4 * sum) << name;
+    }
+  });
+}
 // In contact, within, far away, edge-on, of no size and of any, from every angle.
 TEST(SpecularBatch, OfRoundLightsIsFiniteLight) {
   on_each_instruction_set([] {

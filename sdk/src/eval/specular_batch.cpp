@@ -4,8 +4,10 @@
 #include "batch_error.h"
 #include "etendue/ltc.h"
 #include "etendue/specular_methods.h"
+#include "specular_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -31,6 +33,10 @@ std::optional<SpecularRule> SpecularBatch::rule_named(std::string_view method) {
 Result<SpecularBatch> SpecularBatch::of(SpecularRule rule, const Emitter& emitter) {
   Emitter white = emitter;
   white.radiance = {1, 1, 1};
+  if (auto* sun = std::get_if<DistantEmitter>(&white.shape)) {
+    const double sine = std::sin(sun->radius_rad);
+    sun->illuminance = Rgb{1, 1, 1} * (pi * sine * sine);
+  }
   std::shared_ptr<const Light> light;
   if (!white.pattern && !is_window(white.window)) {
     light = specular_rect(rule, white);
@@ -38,7 +44,7 @@ Result<SpecularBatch> SpecularBatch::of(SpecularRule rule, const Emitter& emitte
     if (!light) light = specular_round(rule, white);
   }
   if (!light) return Error{"METHOD_SHAPE", std::string(name_of(rule)) + " has no vectors for this light", {}, {}, {}};
-  return SpecularBatch(rule, std::move(light), emitter.radiance);
+  return SpecularBatch(rule, std::move(light), luminance_of(emitter));
 }
 
 BatchOutcome SpecularBatch::shares(const SpecularPoints& points, std::span<float> of_f0, std::span<float> of_f90, float where_none) const {

@@ -1,4 +1,5 @@
-// Specular light of spheres and disks at many points by transformed cosines: their outlines are cones over ellipses, whatever the matrix.
+// Specular light of spheres, disks and suns at many points by transformed cosines: their outlines are cones over ellipses, whatever the
+// matrix.
 #include "light_batch.h"
 #include "specular_batch.h"
 
@@ -15,10 +16,11 @@
 #ifndef ETENDUE_SPECULAR_ROUND_BATCH_SHARED
 #define ETENDUE_SPECULAR_ROUND_BATCH_SHARED
 namespace etendue::eval {
+enum class Round { sphere, disk, sun };
 struct SpecularRound {
   Place centre;
-  float radius;
-  Direction normal, x, y;  // of a disk
+  float radius;            // of a sun the sine of its angle
+  Direction normal, x, y;  // of a disk; of a sun x is the direction to it
   const Emitter& white;
 };
 }  // namespace etendue::eval
@@ -42,13 +44,10 @@ HWY_INLINE Outlook outlook(const Ellipse& ellipse, const RoundCone& round, Lanes
   return {ellipse, round, crossed, hn::Or(crossed, hn::Gt(z, number(0))), seen, doubtful};
 }
 
-HWY_INLINE Outlook outlook_of_sphere(const SpecularRound& light, const Vector3& position, const ViewFrame& frame) {
+// A cone of that angle about a unit axis.
+HWY_INLINE Outlook outlook_along(const Vector3& axis, Lanes sine) {
   const Floats d;
-  const Lanes one = number(1);
-  const Vector3 centre = frame(towards(d, light.centre, position));
-  const Lanes over_distance = inverse_sqrt(d, dot(centre, centre));
-  const Vector3 axis = scaled(centre, over_distance);
-  const Lanes sine = hn::Mul(number(light.radius), over_distance), cosine = hn::Sqrt(positive(hn::NegMulAdd(sine, sine, one)));
+  const Lanes one = number(1), cosine = hn::Sqrt(positive(hn::NegMulAdd(sine, sine, one)));
   // Any axes across it (Duff et al. 2017).
   const Lanes side = hn::CopySign(one, axis.z), f = hn::Neg(inverse(d, hn::Add(side, axis.z))), g = hn::Mul(hn::Mul(axis.x, axis.y), f);
   const Vector3 u{hn::MulAdd(hn::Mul(side, f), hn::Mul(axis.x, axis.x), one), hn::Mul(side, g), hn::Neg(hn::Mul(side, axis.x))};
@@ -57,6 +56,11 @@ HWY_INLINE Outlook outlook_of_sphere(const SpecularRound& light, const Vector3& 
   return outlook({scaled(axis, cosine), scaled(u, sine), scaled(v, sine)}, {axis, axis, sine2, hn::Mul(cosine, sine2)},
                  hn::Mul(sine2, hn::NegMulAdd(axis.z, axis.z, one)), hn::FirstN(d, hn::Lanes(d)),
                  hn::Or(hn::Lt(sine, number(0.5f * least_angle)), hn::Ge(sine, number(0.99999f))));
+}
+HWY_INLINE Outlook outlook_of_sphere(const SpecularRound& light, const Vector3& position, const ViewFrame& frame) {
+  const Vector3 centre = frame(towards(Floats(), light.centre, position));
+  const Lanes over_distance = inverse_length(centre);
+  return outlook_along(scaled(centre, over_distance), hn::Mul(number(light.radius), over_distance));
 }
 HWY_INLINE Outlook outlook_of_disk(const SpecularRound& light, const Vector3& position, const ViewFrame& frame) {
   const Floats d;
@@ -77,18 +81,25 @@ HWY_INLINE Outlook outlook_of_disk(const SpecularRound& light, const Vector3& po
                  front, hn::And(doubtful, front));
 }
 
-template <SpecularRule rule, bool sphere>
+template <Round shape>
+HWY_INLINE Outlook outlook_of(const SpecularRound& light, const Vector3& position, const ViewFrame& frame) {
+  if constexpr (shape == Round::sphere) return outlook_of_sphere(light, position, frame);
+  if constexpr (shape == Round::disk) return outlook_of_disk(light, position, frame);
+  return outlook_along(frame(numbers(Floats(), light.x)), number(light.radius));
+}
+
+template <SpecularRule rule, Round shape>
 class RoundLobe {
  public:
   RoundLobe(const SpecularRound& light, const LtcNodes& nodes) : light_(light), nodes_(nodes) {}
   HWY_INLINE Shares operator()(const Vector3& position, const Vector3& normal, const Vector3& view, Lanes alpha, Lit& doubtful) const {
     const Lanes zero = number(0);
     const ViewFrame frame = view_frame(normal, view);
-    const Outlook out = sphere ? outlook_of_sphere(light_, position, frame) : outlook_of_disk(light_, position, frame);
+    const Outlook out = outlook_of<shape>(light_, position, frame);
     const Lit lit = hn::And(hn::And(hn::Gt(frame.cosine, zero), out.seen), out.is_up);
     doubtful = hn::And(out.doubtful, hn::Gt(frame.cosine, zero));
     const Shares shares = by_cosines<rule != SpecularRule::ltc>(nodes_, frame, alpha, [&](const Cosines& cosines) ETENDUE_INLINE_LAMBDA {
-      if constexpr (rule == SpecularRule::ltc_two_caps) return covered_as_cap<sphere>(cosines, out.round);
+      if constexpr (rule == SpecularRule::ltc_two_caps) return covered_as_cap<shape != Round::disk>(cosines, out.round);
       return covered(cosines, out.ellipse, out.crossed);
     });
     return {hn::IfThenElseZero(lit, shares.of_f0), hn::IfThenElseZero(lit, shares.of_f90)};
@@ -103,8 +114,11 @@ std::size_t OverSpecularRound(SpecularRule rule, const SpecularRound& light, con
                               std::span<float> of_f0, std::span<float> of_f90, float where_none) {
   const auto exact = [&](std::size_t index) { return in_double(rule, light.white, points, index); };
   const auto with = [&](auto kernel) { return over_views(points, of_f0, of_f90, where_none, kernel, exact); };
-  const bool sphere = std::holds_alternative<SphereEmitter>(light.white.shape);
-  const auto by = [&](auto of) { return sphere ? with(RoundLobe<of(), true>(light, nodes)) : with(RoundLobe<of(), false>(light, nodes)); };
+  const auto by = [&](auto of) {
+    if (std::holds_alternative<SphereEmitter>(light.white.shape)) return with(RoundLobe<of(), Round::sphere>(light, nodes));
+    if (std::holds_alternative<DiskEmitter>(light.white.shape)) return with(RoundLobe<of(), Round::disk>(light, nodes));
+    return with(RoundLobe<of(), Round::sun>(light, nodes));
+  };
   if (rule == SpecularRule::ltc) return by(std::integral_constant<SpecularRule, SpecularRule::ltc>());
   if (rule == SpecularRule::ltc_two_lobes) return by(std::integral_constant<SpecularRule, SpecularRule::ltc_two_lobes>());
   return by(std::integral_constant<SpecularRule, SpecularRule::ltc_two_caps>());
@@ -135,6 +149,7 @@ class RoundLight final : public SpecularBatch::Light {
                            Direction(x),           Direction(cross(normal, x)), white_};
     };
     if (const auto* sphere = std::get_if<SphereEmitter>(&white_.shape)) return light(sphere->centre, sphere->radius, {}, {});
+    if (const auto* sun = std::get_if<DistantEmitter>(&white_.shape)) return light({}, std::sin(sun->radius_rad), {}, sun->towards);
     const auto& disk = std::get<DiskEmitter>(white_.shape);
     return light(disk.centre, disk.radius, disk.normal, disk.x);
   }
@@ -145,8 +160,10 @@ class RoundLight final : public SpecularBatch::Light {
 }  // namespace
 
 std::shared_ptr<const SpecularBatch::Light> specular_round(SpecularRule rule, const Emitter& white) {
-  const bool round = std::holds_alternative<SphereEmitter>(white.shape) || std::holds_alternative<DiskEmitter>(white.shape);
-  return round && rule != SpecularRule::moments ? std::make_shared<RoundLight>(white) : nullptr;
+  const auto* sun = std::get_if<DistantEmitter>(&white.shape);
+  const bool is_round = std::holds_alternative<SphereEmitter>(white.shape) || std::holds_alternative<DiskEmitter>(white.shape) ||
+                        (sun != nullptr && sun->radius_rad > 0 && sun->radius_rad < 1.5);
+  return is_round && rule != SpecularRule::moments ? std::make_shared<RoundLight>(white) : nullptr;
 }
 
 }  // namespace etendue::eval
