@@ -213,7 +213,6 @@ class BlockWithin {
   // Of cells that have been measured, those of one point: all are taken, or the worst are halved.
   void judge(std::size_t point, std::size_t from, std::size_t to) {
     constexpr std::size_t most_cells = 200;
-    constexpr float acceptable = 0.1f;  // part of what is allowed that a single cell may err by and not be halved
     constexpr auto least_f0 = static_cast<float>(SpecularWithinBatch::least_f0);
     Sums all = sums[point];
     for (std::size_t i = from; i < to; ++i) all.add(*cells_, i);
@@ -236,6 +235,9 @@ class BlockWithin {
       return;
     }
     if (to - from > most_cells) return;
+    // Cells that are left as they are take half of what those before have not taken.
+    const float left = 1 - excess(sums[point].shape_error, sums[point].risen_error),
+                acceptable = 0.5f * left / static_cast<float>(to - from);
     for (std::size_t i = from; i < to; ++i) {
       if (excess(cells_->shape_error[i], cells_->risen_error[i]) <= acceptable) {
         sums[point].add(*cells_, i);
