@@ -22,7 +22,7 @@
 namespace etendue::eval {
 enum class PublishedRule {
   punctual,
-  wide_point,
+  covered_lobe,
   drobot_20,
   drobot_20_fitted,
   karis_10,
@@ -71,20 +71,35 @@ struct LobeLanes {
   ViewFrame frame;
   Lanes alpha;
   Vector3 mirror() const { return {hn::Neg(frame.sine), number(0), frame.cosine}; }
-  HWY_INLINE Shares operator()(const SmallLight& light) const {
+  // `covered`: covered_lobe of specular_methods.cpp, the factor a solid angle.
+  template <bool covered>
+  HWY_INLINE Shares lit_by(const SmallLight& light) const {
     const Floats d;
     const Lanes zero = number(0), one = number(1), half = number(0.5f);
     const Vector3 l = unit(light.direction), sum = frame.view() + l;
     const Lanes across = hn::MulAdd(sum.x, sum.x, hn::Mul(sum.y, sum.y)), along2 = hn::Mul(sum.z, sum.z), total = hn::Add(across, along2);
-    const Lanes a2 = hn::Mul(light.density_alpha, light.density_alpha), wide = hn::Mul(total, inverse(d, hn::MulAdd(a2, along2, across)));
-    const Lanes density = hn::Mul(hn::Mul(a2, number(static_cast<float>(1 / pi))), hn::Mul(wide, wide));
     const Lanes alpha2 = hn::Mul(alpha, alpha);
     const auto root = [&](Lanes z) ETENDUE_INLINE_LAMBDA {
       const Lanes z2 = hn::Mul(z, z);
       return hn::Sqrt(hn::MulAdd(alpha2, hn::Sub(one, z2), z2));
     };
     const Lanes masked = hn::Mul(half, inverse(d, hn::MulAdd(l.z, root(frame.cosine), hn::Mul(frame.cosine, root(l.z)))));
-    const Lanes value = hn::Mul(hn::Mul(density, light.factor), hn::Mul(l.z, masked));
+    const Lanes seen_area = hn::Mul(l.z, masked);
+    Lanes value;
+    if constexpr (covered) {
+      // v.h = |v + l| / 2 and n.h = (v + l).z / |v + l| leave no root.
+      const Lanes over_z = inverse(d, sum.z), over_z2 = hn::Mul(over_z, over_z), bent = hn::Mul(total, over_z);
+      const Lanes r2 = hn::Mul(hn::Mul(light.factor, number(static_cast<float>(0.5 / pi))), hn::Mul(bent, over_z2));
+      const Lanes t = hn::Sub(hn::MulAdd(across, over_z2, alpha2), r2), rest = hn::Mul(hn::Mul(number(4), alpha2), r2);
+      const Lanes length = hn::Sqrt(hn::MulAdd(t, t, rest)), longer = hn::Add(length, hn::Abs(t));
+      const Lanes above = hn::IfThenElse(hn::Gt(t, zero), rest, hn::Mul(longer, longer));
+      const Lanes share = hn::Div(hn::Mul(half, above), hn::Mul(length, longer));
+      value = hn::Mul(share, hn::Min(hn::Mul(hn::Add(bent, bent), seen_area), one));
+    } else {
+      const Lanes a2 = hn::Mul(light.density_alpha, light.density_alpha), wide = hn::Mul(total, inverse(d, hn::MulAdd(a2, along2, across)));
+      const Lanes density = hn::Mul(hn::Mul(a2, number(static_cast<float>(1 / pi))), hn::Mul(wide, wide));
+      value = hn::Mul(hn::Mul(density, light.factor), seen_area);
+    }
     const Lanes away = positive(hn::NegMulAdd(half, hn::Sqrt(total), one)), away2 = hn::Mul(away, away);
     const Lit lit = hn::And(hn::Gt(l.z, zero), hn::And(hn::Ge(value, zero), hn::Lt(value, number(1e30f))));
     const Lanes seen = hn::IfThenElseZero(lit, value), of_f90 = hn::Mul(seen, hn::Mul(away, hn::Mul(away2, away2)));
@@ -141,21 +156,14 @@ HWY_INLINE Lanes falloff(const Vector3& point) { return inverse(Floats(), hn::Ad
 HWY_INLINE Lanes between_alphas(Lanes alpha, Lanes radius, const Vector3& point) {
   return hn::Sqrt(hn::Mul(alpha, saturate(hn::MulAdd(hn::Mul(number(0.5f), radius), inverse_length(point), alpha))));
 }
-// WidePoint of specular_methods.cpp.
-HWY_INLINE Lanes wide_alpha(Lanes alpha, Lanes solid_angle) {
-  return hn::Sqrt(hn::MulAdd(solid_angle, number(static_cast<float>(0.25 / pi)), square(alpha)));
-}
-
 template <PublishedRule rule>
 HWY_INLINE SmallLight small_light(const PlacedRect& rect, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
   const Floats d;
   const Vector3 centre = lobe.frame(towards(d, rect.centre, position)), normal = lobe.frame(numbers(d, rect.normal));
   const Lanes height = hn::Neg(dot(centre, normal)), half_x = number(rect.half_x), half_y = number(rect.half_y);
   lit = hn::And(lit, hn::Gt(height, number(0)));
-  if constexpr (rule == PublishedRule::punctual || rule == PublishedRule::wide_point) {
-    SmallLight light = small_area(centre, number(4 * rect.half_x * rect.half_y), height, lobe.alpha);
-    if constexpr (rule == PublishedRule::wide_point) light.density_alpha = wide_alpha(lobe.alpha, light.factor);
-    return light;
+  if constexpr (rule == PublishedRule::punctual || rule == PublishedRule::covered_lobe) {
+    return small_area(centre, number(4 * rect.half_x * rect.half_y), height, lobe.alpha);
   } else {
     const Vector3 x = lobe.frame(numbers(d, rect.x)), y = lobe.frame(numbers(d, rect.y)), mirror = lobe.mirror();
     const Lanes falling = hn::Neg(dot(mirror, normal)), distance = hn::Div(height, hn::Max(falling, number(1e-30f)));
@@ -177,10 +185,8 @@ HWY_INLINE SmallLight small_light(const PlacedDisk& disk, const Vector3& positio
   const Vector3 centre = lobe.frame(towards(d, disk.centre, position)), normal = lobe.frame(numbers(d, disk.normal));
   const Lanes height = hn::Neg(dot(centre, normal)), radius = number(disk.radius), round = number(static_cast<float>(pi));
   lit = hn::And(lit, hn::Gt(height, number(0)));
-  if constexpr (rule == PublishedRule::punctual || rule == PublishedRule::wide_point) {
-    SmallLight light = small_area(centre, hn::Mul(round, square(radius)), height, lobe.alpha);
-    if constexpr (rule == PublishedRule::wide_point) light.density_alpha = wide_alpha(lobe.alpha, light.factor);
-    return light;
+  if constexpr (rule == PublishedRule::punctual || rule == PublishedRule::covered_lobe) {
+    return small_area(centre, hn::Mul(round, square(radius)), height, lobe.alpha);
   } else {
     const Vector3 mirror = lobe.mirror();
     const Lanes falling = hn::Neg(dot(mirror, normal)), distance = hn::Div(height, hn::Max(falling, number(1e-30f)));
@@ -200,8 +206,7 @@ HWY_INLINE SmallLight small_light(const PlacedSphere& sphere, const Vector3& pos
   const Vector3 centre = lobe.frame(towards(d, sphere.centre, position));
   const Lanes radius = number(sphere.radius), over = inverse_length(centre), sine = hn::Mul(radius, over);
   const Lanes facing = hn::Mul(number(static_cast<float>(pi)), square(sine)), alpha = lobe.alpha;
-  if constexpr (rule == PublishedRule::punctual) return {centre, facing, alpha};
-  if constexpr (rule == PublishedRule::wide_point) return {centre, facing, wide_alpha(alpha, facing)};
+  if constexpr (rule == PublishedRule::punctual || rule == PublishedRule::covered_lobe) return {centre, facing, alpha};
   if constexpr (rule == PublishedRule::karis_10) return {centre, facing, widened(alpha, radius, over)};
   const Vector3 mirror = lobe.mirror();
   if constexpr (rule == PublishedRule::drobot_20) {
@@ -264,7 +269,7 @@ HWY_INLINE SmallLight small_light(const PlacedTube& tube, const Vector3& positio
   }
 }
 
-// light(position, lobe, lit) at every point. How many points are not finite.
+// light(position, lobe, lit) gives the shares at every point. How many points are not finite.
 template <class Light>
 HWY_INLINE std::size_t over_points_and_views(const SpecularPoints& points, std::span<float> of_f0, std::span<float> of_f90,
                                              float where_none, const Light& light) {
@@ -284,7 +289,7 @@ HWY_INLINE std::size_t over_points_and_views(const SpecularPoints& points, std::
     const Lit valid = hn::Eq(nothing, number(0));
     const LobeLanes lobe{view_frame(normal, view), hn::Min(hn::Max(alpha, number(1e-4f)), number(1))};
     Lit lit = hn::Gt(lobe.frame.cosine, number(0));
-    const Shares shares = lobe(light(position, lobe, lit));
+    const Shares shares = light(position, lobe, lit);
     hn::StoreU(hn::IfThenElse(valid, hn::IfThenElseZero(lit, shares.of_f0), number(where_none)), d, to);
     hn::StoreU(hn::IfThenElse(valid, hn::IfThenElseZero(lit, shares.of_f90), number(where_none)), d, to_90);
     if (HWY_UNLIKELY(!hn::AllTrue(d, valid))) without += lanes - hn::CountTrue(d, valid);
@@ -314,22 +319,24 @@ std::size_t by_rule(PublishedRule rule, const Placed& light, const SpecularPoint
   const auto by = [&](auto of) {
     if (rule != of()) return;
     without = over_points_and_views(points, of_f0, of_f90, where_none,
-                                    [&light](const Vector3& position, const LobeLanes& lobe, Lit& lit)
-                                        ETENDUE_INLINE_LAMBDA { return small_light<decltype(of)::value>(light, position, lobe, lit); });
+                                    [&light](const Vector3& position, const LobeLanes& lobe, Lit& lit) ETENDUE_INLINE_LAMBDA {
+                                      return lobe.template lit_by<decltype(of)::value == PublishedRule::covered_lobe>(
+                                          small_light<decltype(of)::value>(light, position, lobe, lit));
+                                    });
   };
   (by(std::integral_constant<PublishedRule, rules>()), ...);
   return without;
 }
 using enum PublishedRule;
 std::size_t OverPublishedRect(PublishedRule rule, const PlacedRect& light, const SpecularPoints& points, Of of_f0, Of of_f90, float none) {
-  return by_rule<punctual, wide_point, drobot_20, drobot_20_fitted>(rule, light, points, of_f0, of_f90, none);
+  return by_rule<punctual, covered_lobe, drobot_20, drobot_20_fitted>(rule, light, points, of_f0, of_f90, none);
 }
 std::size_t OverPublishedDisk(PublishedRule rule, const PlacedDisk& light, const SpecularPoints& points, Of of_f0, Of of_f90, float none) {
-  return by_rule<punctual, wide_point, drobot_20, drobot_20_fitted>(rule, light, points, of_f0, of_f90, none);
+  return by_rule<punctual, covered_lobe, drobot_20, drobot_20_fitted>(rule, light, points, of_f0, of_f90, none);
 }
 std::size_t OverPublishedSphere(PublishedRule rule, const PlacedSphere& light, const SpecularPoints& points, Of of_f0, Of of_f90,
                                 float none) {
-  return by_rule<punctual, wide_point, drobot_20, karis_10, karis_11, karis_14, eden_sphere>(rule, light, points, of_f0, of_f90, none);
+  return by_rule<punctual, covered_lobe, drobot_20, karis_10, karis_11, karis_14, eden_sphere>(rule, light, points, of_f0, of_f90, none);
 }
 std::size_t OverPublishedTube(PublishedRule rule, const PlacedTube& light, const SpecularPoints& points, Of of_f0, Of of_f90, float none) {
   return by_rule<punctual, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended>(rule, light, points, of_f0, of_f90,
@@ -350,19 +357,19 @@ HWY_EXPORT(OverPublishedSphere);
 HWY_EXPORT(OverPublishedTube);
 
 constexpr std::array<std::string_view, 14> all_names{
-    "punctual", "wide-point", "drobot-1-20-mended", "drobot-1-20-fitted", "karis-10",    "karis-11-mended", "karis-14",
-    "karis-18", "karis-19",   "karis-20",           "karis-20-mended",    "eden-sphere", "eden-tube",       "eden-tube-mended"};
+    "punctual", "covered-lobe", "drobot-1-20-mended", "drobot-1-20-fitted", "karis-10",    "karis-11-mended", "karis-14",
+    "karis-18", "karis-19",     "karis-20",           "karis-20-mended",    "eden-sphere", "eden-tube",       "eden-tube-mended"};
 
 template <class Shape>
 bool takes(PublishedRule rule) {
   using enum PublishedRule;
   const auto is = [rule](std::initializer_list<PublishedRule> some) { return std::find(some.begin(), some.end(), rule) != some.end(); };
   if constexpr (std::is_same_v<Shape, SphereView>)
-    return is({punctual, wide_point, drobot_20, karis_10, karis_11, karis_14, eden_sphere});
+    return is({punctual, covered_lobe, drobot_20, karis_10, karis_11, karis_14, eden_sphere});
   else if constexpr (std::is_same_v<Shape, TubeView>)
     return is({punctual, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended});
   else
-    return is({punctual, wide_point, drobot_20, drobot_20_fitted});
+    return is({punctual, covered_lobe, drobot_20, drobot_20_fitted});
 }
 
 // From in front of a flat light.

@@ -2,6 +2,7 @@
 #include "etendue/specular_methods.h"
 
 #include "karis.h"
+#include "microfacet.h"
 #include "specular_moments.h"
 #include "specular_view.h"
 
@@ -39,25 +40,35 @@ constexpr SpecularMethod baseline[] = {
      published<point_rules>},
 };
 
-// Seen along the normal, in the middle of a sphere's highlight, the mean of D over the half vectors that mirror the light to the eye is
-// that of the D whose alpha'^2 is alpha^2 + (R / 2 d)^2: of a light of the solid angle s, alpha^2 + s / (4 pi).
-Rgb wide_point(const LobeView& lobe, const Vec3d& centre, double solid_angle) {
-  const double wider = std::sqrt(lobe.alpha() * lobe.alpha() + solid_angle / (4 * pi));
-  return lobe(centre) * (lobe.density_ratio(centre, wider) * solid_angle);
+// The half vectors that mirror the light to the eye, taken for a disk about the centre's in the plane of slopes (h.x, h.y) / h.z: a solid
+// angle of light is 1 / (4 v.h n.h^3) of it there. Slopes over alpha are the stereographic projection of a sphere on which the lobe's
+// D n.h dh is uniform, and a disk is that of a cap: with q the slope of the centre and r the disk's radius its share is
+//     (1 - t / sqrt(t^2 + 4 alpha^2 r^2)) / 2,   t = q^2 + alpha^2 - r^2.
+// What else the lobe has (W of specular_moments.cpp) is slow, is taken at the centre, and is 1 at most.
+Rgb covered_lobe(const LobeView& lobe, const Vec3d& centre, double solid_angle) {
+  const Vec3d v = lobe.frame.vector(lobe.view), l = lobe.frame.vector(normalised(centre));
+  if (!(l.z > 0 && dot(lobe.surface_normal, centre) > 0)) return {};
+  const HalfAngle h = half_angle(v, l);
+  const double cosine = std::sqrt(h.cos2), alpha2 = lobe.alpha() * lobe.alpha();
+  const double r2 = solid_angle / (4 * pi * h.v_dot_h * h.cos2 * cosine), t = h.sin2 / h.cos2 + alpha2 - r2;
+  const double root = std::sqrt(t * t + 4 * alpha2 * r2), share = t > 0 ? 2 * alpha2 * r2 / (root * (root + t)) : 0.5 * (1 - t / root);
+  const double slow = 4 * h.v_dot_h / cosine * l.z * GgxView(lobe.alpha(), lobe.lobe.masking, v).masked(l.z);
+  return fresnel_reflectance(lobe.lobe, h.v_dot_h) * (share * std::min(slow, 1.0));
 }
 template <class Flat>
-Rgb wide_flat_point(const Flat& light, const LobeView& lobe) {
-  return wide_point(lobe, light.centre, light.area() * light.height() / std::pow(length(light.centre), 3));
+Rgb flat_part(const Flat& light, const LobeView& lobe) {
+  return covered_lobe(lobe, light.centre, light.area() * light.height() / std::pow(length(light.centre), 3));
 }
-Rgb wide_round_point(const SphereView& sphere, const LobeView& lobe) {
-  return wide_point(lobe, sphere.centre, pi * sphere.radius * sphere.radius / dot(sphere.centre, sphere.centre));
+Rgb round_part(const SphereView& sphere, const LobeView& lobe) {
+  return covered_lobe(lobe, sphere.centre, pi * sphere.radius * sphere.radius / dot(sphere.centre, sphere.centre));
 }
-constexpr SpecularRules wide_rules{
-    .rect = wide_flat_point<RectView>, .disk = wide_flat_point<DiskView>, .sphere = wide_round_point, .sun = wide_round_point};
+constexpr SpecularRules covered_rules{.rect = flat_part<RectView>, .disk = flat_part<DiskView>, .sphere = round_part, .sun = round_part};
 constexpr SpecularMethod ours[] = {
-    {"wide-point", "Etendue",
-     "A point at the centre, D with alpha^2 + solid angle / (4 pi): the middle of a highlight of a sphere seen along the normal is right.",
-     published<wide_rules>},
+    {"covered-lobe", "Etendue",
+     "The share of the lobe that the light covers, as a disk of half vectors about its centre, in closed form; all that is slow in the "
+     "lobe is "
+     "taken at the centre. Dark once the centre has set.",
+     published<covered_rules>},
     {"moments", "Etendue",
      "Exact but for the slow factor of the lobe, which is taken at four places, and for outlines in pieces; no table.", moments},
 };
