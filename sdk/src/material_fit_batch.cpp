@@ -38,11 +38,27 @@ HWY_INLINE Point choose(M which, const Point& yes, const Point& no) {
 }
 HWY_INLINE Point better(const Point& a, const Point& b) { return choose(hn::Lt(a.residual, b.residual), a, b); }
 
+// A metal mask, with s = 1 - m, n = s^2 + m^2 and what divides by them; on the grid all of it is known.
+struct Metal {
+  V m, s, per_n, per_s;
+};
+constexpr float tiny = 1e-6f;
+HWY_INLINE Metal metal_of(V m) {
+  const V s = hn::Sub(set(1), m);
+  return {m, s, hn::Div(set(1), hn::MulAdd(s, s, hn::Mul(m, m))), hn::Div(set(1), hn::Max(s, set(tiny)))};
+}
+HWY_INLINE Metal metal_of(int cell) {
+  const float m = static_cast<float>(cell) / cells, s = 1 - m;
+  return {set(m), set(s), set(1 / (s * s + m * m)), set(1 / std::max(s, tiny))};
+}
+
 class Profile {
  public:
   HWY_INLINE Profile(const V* diffuse, const V* f0, bool core) : core_(core) {
     for (int c = 0; c < 3; ++c) d_[c] = diffuse[c], f_[c] = f0[c];
     f_sum_ = hn::Add(f_[0], hn::Add(f_[1], f_[2]));
+    f_mean_ = hn::Mul(set(1.0f / 3), f_sum_);
+    d_mean_ = hn::Mul(set(1.0f / 3), hn::Add(d_[0], hn::Add(d_[1], d_[2])));
   }
 
   // The base colours at (m, k): the best of each channel, held within [0, 1].
@@ -54,19 +70,17 @@ class Profile {
     }
   }
 
-  // Two of Newton's steps in k from a neighbour's: half the derivative in k, 3 k - sum f + m sum b, has straight pieces, and a step within
-  // one ends at its root.
-  HWY_INLINE Point at(V m, V k) const {
-    const V zero = hn::Zero(D()), one = set(1);
-    const V s = hn::Sub(one, m), per_n = hn::Div(one, hn::MulAdd(s, s, hn::Mul(m, m))), t = hn::Mul(m, per_n);
+  // Where no base colour is at a bound, k is the mean of f - d m / s. From there two of Newton's steps: half the derivative in k,
+  // 3 k - sum f + m sum b, has straight pieces, and a step within one ends at its root.
+  HWY_INLINE Point at(const Metal& metal) const {
+    const V zero = hn::Zero(D()), one = set(1), m = metal.m, s = metal.s;
+    const V across = hn::Mul(s, metal.per_n), t = hn::Mul(m, metal.per_n);
     V free[3], b[3];  // the base colour without bounds is free - t k
-    for (int c = 0; c < 3; ++c) free[c] = hn::Mul(hn::MulAdd(s, d_[c], hn::Mul(m, f_[c])), per_n);
-    const auto held = [&](int c) HWY_ATTR { return held_within(zero, hn::NegMulAdd(t, k, free[c]), one); };
-    if (core_) {
-      k = hn::Mul(set(core_k), s);
-    } else {
+    for (int c = 0; c < 3; ++c) free[c] = hn::MulAdd(across, d_[c], hn::Mul(t, f_[c]));
+    V k = hn::Mul(set(core_k), s);
+    if (!core_) {
       const V highest = hn::Mul(set(largest_k), s), mt = hn::Mul(m, t);
-      k = hn::Min(k, highest);
+      k = held_within(zero, hn::NegMulAdd(hn::Mul(m, metal.per_s), d_mean_, f_mean_), highest);
       for (int step = 0; step < 2; ++step) {
         V sum = zero, curvature = set(3);
         for (const V& at_zero : free) {
@@ -75,29 +89,27 @@ class Profile {
           curvature = hn::Sub(curvature, hn::IfThenElseZero(hn::Eq(wanted, got), mt));
         }
         const V derivative = hn::MulAdd(m, sum, hn::MulSub(set(3), k, f_sum_));
-        k = held_within(zero, hn::Sub(k, hn::Div(derivative, hn::Max(curvature, set(1e-6f)))), highest);
+        k = held_within(zero, hn::Sub(k, hn::Div(derivative, hn::Max(curvature, set(tiny)))), highest);
       }
     }
     V residual = zero, slope = zero, specular_sum = zero;
     for (int c = 0; c < 3; ++c) {
-      b[c] = held(c);
+      b[c] = held_within(zero, hn::NegMulAdd(t, k, free[c]), one);
       const V diffuse = hn::MulSub(s, b[c], d_[c]), specular = hn::MulAdd(m, b[c], hn::Sub(k, f_[c]));
       residual = hn::MulAdd(diffuse, diffuse, hn::MulAdd(specular, specular, residual));
       slope = hn::MulAdd(b[c], hn::Sub(specular, diffuse), slope);
       specular_sum = hn::Add(specular_sum, specular);
     }
     // k = kappa s moves with m.
-    const V kappa = hn::Div(k, hn::Max(s, set(1e-6f)));
-    return {m, k, residual, hn::NegMulAdd(kappa, specular_sum, slope)};
+    return {m, k, residual, hn::NegMulAdd(hn::Mul(k, metal.per_s), specular_sum, slope)};
   }
 
   // Where the residual is least without any bound, and what it is there: FreeOptimum of material_fit.cpp with tan(t) for the half angle,
   // t = atan2(2 X, D - F) / 2.
   HWY_INLINE V free_metal(V* least) const {
-    const V third = set(1.0f / 3), d_mean = hn::Mul(third, hn::Add(d_[0], hn::Add(d_[1], d_[2]))), f_mean = hn::Mul(third, f_sum_);
     V dd = hn::Zero(D()), df = dd, ff = dd;
     for (int c = 0; c < 3; ++c) {
-      const V a = hn::Sub(d_[c], d_mean), b = hn::Sub(f_[c], f_mean);
+      const V a = hn::Sub(d_[c], d_mean_), b = hn::Sub(f_[c], f_mean_);
       dd = hn::MulAdd(a, a, dd), df = hn::MulAdd(a, b, df), ff = hn::MulAdd(b, b, ff);
     }
     const V twice = hn::Add(df, df), p = hn::Sub(dd, ff), h = hn::Sqrt(hn::MulAdd(p, p, hn::Mul(twice, twice)));
@@ -112,7 +124,7 @@ class Profile {
   }
 
  private:
-  V d_[3], f_[3], f_sum_;
+  V d_[3], f_[3], f_sum_, d_mean_, f_mean_;
   bool core_;
 };
 
@@ -122,8 +134,7 @@ struct Valley {
   V m, residual;
   M exists;
 };
-HWY_INLINE Valley valley_between(const Point& a, const Point& b) {
-  const V width = hn::Sub(b.m, a.m), per_width = hn::Div(set(1), hn::Max(width, set(1e-20f)));
+HWY_INLINE Valley valley_between(const Point& a, const Point& b, V width, V per_width) {
   const V ga = hn::Add(a.slope, a.slope), gb = hn::Add(b.slope, b.slope);
   const V rise = hn::Mul(hn::Sub(b.residual, a.residual), per_width);
   const V d1 = hn::NegMulAdd(set(3), rise, hn::Add(ga, gb));
@@ -138,19 +149,23 @@ HWY_INLINE Valley valley_between(const Point& a, const Point& b) {
   return {hn::MulAdd(width, x, a.m), hn::MulAdd(hn::Mul(width, x), depth, a.residual), exists};
 }
 
-// Between two points, with its valley's depth.
+// Between two neighbours of the grid: the left one's m, residuals and slopes at both ends, and its valley's depth.
 struct Cell {
-  Point left, right;
-  V depth;
+  V m, left, right, left_slope, right_slope, depth;
 };
 HWY_INLINE Cell choose(M which, const Cell& yes, const Cell& no) {
-  return {choose(which, yes.left, no.left), choose(which, yes.right, no.right), hn::IfThenElse(which, yes.depth, no.depth)};
+  return {hn::IfThenElse(which, yes.m, no.m),
+          hn::IfThenElse(which, yes.left, no.left),
+          hn::IfThenElse(which, yes.right, no.right),
+          hn::IfThenElse(which, yes.left_slope, no.left_slope),
+          hn::IfThenElse(which, yes.right_slope, no.right_slope),
+          hn::IfThenElse(which, yes.depth, no.depth)};
 }
 
 HWY_INLINE Point optimum(const Profile& profile, bool core) {
   const V zero = hn::Zero(D());
   const auto with_margin = [](V residual) HWY_ATTR { return hn::MulAdd(residual, set(4e-6f), hn::Add(residual, set(1e-10f))); };
-  const Point first = profile.at(zero, zero), last = profile.at(set(1), zero);
+  const Point first = profile.at(metal_of(0)), last = profile.at(metal_of(cells));
   const auto whole_if_equal = [&](const Point& found) HWY_ATTR {
     const Point one = choose(hn::Le(last.residual, with_margin(found.residual)), last, found);
     return choose(hn::Le(first.residual, with_margin(one.residual)), first, one);
@@ -161,7 +176,7 @@ HWY_INLINE Point optimum(const Profile& profile, bool core) {
   if (!core) {
     V least;
     const V m = profile.free_metal(&least);
-    best = better(profile.at(m, hn::Mul(set(core_k), hn::Sub(set(1), m))), best);
+    best = better(profile.at(metal_of(m)), best);
     done = hn::Le(best.residual, with_margin(least));
     if (hn::AllTrue(D(), done)) return whole_if_equal(best);
   }
@@ -170,25 +185,29 @@ HWY_INLINE Point optimum(const Profile& profile, bool core) {
   };
   const M every = hn::Ge(set(1), zero);
   const V unlikely = set(1e30f);
-  Cell deepest{first, last, unlikely}, second = deepest;
+  Cell deepest{zero, first.residual, last.residual, first.slope, last.slope, unlikely}, second = deepest;
   Point before = first;
   for (int i = 1; i <= cells; ++i) {
-    const Point here = i == cells ? last : profile.at(set(static_cast<float>(i) / cells), before.k);
+    const Point here = i == cells ? last : profile.at(metal_of(i));
     consider(here, every);
-    const Valley valley = valley_between(before, here);
-    const Cell cell{before, here, hn::IfThenElse(valley.exists, valley.residual, unlikely)};
+    const Valley valley = valley_between(before, here, set(1.0f / cells), set(cells));
+    const Cell cell{before.m,     before.residual, here.residual,
+                    before.slope, here.slope,      hn::IfThenElse(valley.exists, valley.residual, unlikely)};
     const M ahead = hn::Lt(cell.depth, deepest.depth);
     second = choose(ahead, deepest, choose(hn::Lt(cell.depth, second.depth), cell, second));
     deepest = choose(ahead, cell, deepest);
     before = here;
   }
-  const auto refine = [&](Cell cell, int times, M lanes) HWY_ATTR {
+  const auto refine = [&](const Cell& cell, int times, M lanes) HWY_ATTR {
+    const V unknown = zero;  // k, which nobody asks for
+    Point left{cell.m, unknown, cell.left, cell.left_slope},
+        right{hn::Add(cell.m, set(1.0f / cells)), unknown, cell.right, cell.right_slope};
     for (int i = 0; i < times; ++i) {
-      const Valley valley = valley_between(cell.left, cell.right);
-      const Point here = profile.at(valley.m, hn::Mul(set(0.5f), hn::Add(cell.left.k, cell.right.k)));
+      const V width = hn::Sub(right.m, left.m), per_width = hn::Div(set(1), hn::Max(width, set(1e-20f)));
+      const Point here = profile.at(metal_of(valley_between(left, right, width, per_width).m));
       consider(here, lanes);
       const M falling = hn::Lt(here.slope, zero);
-      cell.left = choose(falling, here, cell.left), cell.right = choose(falling, cell.right, here);
+      left = choose(falling, here, left), right = choose(falling, right, here);
     }
   };
   refine(deepest, refinements, every);

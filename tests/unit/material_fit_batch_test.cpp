@@ -57,12 +57,12 @@ void expect_near_optimum(const Pairs& pairs, DielectricF0 dielectric, double wor
   });
 }
 
-// Of 1e7 some .001 % are above 1e-4 (tests/acceptance/materials): of 9999 none or one.
+// One of 10000 may be above 1e-4 (tests/acceptance/materials counts them): more than 4 of 9999 come by chance once in 270.
 TEST(MaterialFitBatch, RandomColours) {
   Draws draw(1);
   Pairs pairs;
   for (int i = 0; i < 9999; ++i) pairs.add(draw.rgb(0, 1), draw.rgb(0, 1));
-  for (const DielectricF0 dielectric : {DielectricF0::free, DielectricF0::core}) expect_near_optimum(pairs, dielectric, half_8_bit_step, 1);
+  for (const DielectricF0 dielectric : {DielectricF0::free, DielectricF0::core}) expect_near_optimum(pairs, dielectric, half_8_bit_step, 4);
 }
 
 // What came from Disney parameters has residual 0: the float's rounding alone is left, and what the preference of metal 0 and 1 costs.
