@@ -236,7 +236,7 @@ HWY_INLINE SmallLight small_light(const PlacedTube& tube, const Vector3& positio
   const Vector3 a = lobe.frame(towards(d, tube.a, position)), b = lobe.frame(towards(d, tube.b, position)), span = b - a;
   const Lanes radius = number(tube.radius), span2 = dot(span, span), l = hn::Sqrt(span2), alpha = lobe.alpha;
   const Lanes intensity = hn::Mul(radius, hn::MulAdd(two, l, hn::Mul(number(static_cast<float>(pi)), radius)));
-  if constexpr (rule == PublishedRule::punctual) {
+  if constexpr (rule == PublishedRule::punctual || rule == PublishedRule::covered_lobe) {
     const Vector3 centre = scaled(a + b, number(0.5f));
     return {centre, hn::Mul(intensity, inverse(d, dot(centre, centre))), alpha};
   } else {
@@ -339,8 +339,8 @@ std::size_t OverPublishedSphere(PublishedRule rule, const PlacedSphere& light, c
   return by_rule<punctual, covered_lobe, drobot_20, karis_10, karis_11, karis_14, eden_sphere>(rule, light, points, of_f0, of_f90, none);
 }
 std::size_t OverPublishedTube(PublishedRule rule, const PlacedTube& light, const SpecularPoints& points, Of of_f0, Of of_f90, float none) {
-  return by_rule<punctual, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended>(rule, light, points, of_f0, of_f90,
-                                                                                                       none);
+  return by_rule<punctual, covered_lobe, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended>(rule, light, points,
+                                                                                                                     of_f0, of_f90, none);
 }
 
 }  // namespace
@@ -367,7 +367,7 @@ bool takes(PublishedRule rule) {
   if constexpr (std::is_same_v<Shape, SphereView>)
     return is({punctual, covered_lobe, drobot_20, karis_10, karis_11, karis_14, eden_sphere});
   else if constexpr (std::is_same_v<Shape, TubeView>)
-    return is({punctual, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended});
+    return is({punctual, covered_lobe, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended});
   else
     return is({punctual, covered_lobe, drobot_20, drobot_20_fitted});
 }

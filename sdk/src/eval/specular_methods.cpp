@@ -62,7 +62,13 @@ Rgb flat_part(const Flat& light, const LobeView& lobe) {
 Rgb round_part(const SphereView& sphere, const LobeView& lobe) {
   return covered_lobe(lobe, sphere.centre, pi * sphere.radius * sphere.radius / dot(sphere.centre, sphere.centre));
 }
-constexpr SpecularRules covered_rules{.rect = flat_part<RectView>, .disk = flat_part<DiskView>, .sphere = round_part, .sun = round_part};
+// The solid angle across the axis, whatever the tilt.
+Rgb tube_part(const TubeView& tube, const LobeView& lobe) {
+  const Vec3d centre = (tube.a + tube.b) * 0.5;
+  return covered_lobe(lobe, centre, intensity_across(tube) / dot(centre, centre));
+}
+constexpr SpecularRules covered_rules{
+    .rect = flat_part<RectView>, .disk = flat_part<DiskView>, .sphere = round_part, .tube = tube_part, .sun = round_part};
 constexpr SpecularMethod ours[] = {
     {"covered-lobe", "Etendue",
      "The share of the lobe that the light covers, as a disk of half vectors about its centre, in closed form; all that is slow in the "
