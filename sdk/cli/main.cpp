@@ -24,6 +24,8 @@ int main(int argc, char** argv) {
   add_eval(app, common, run);
   add_bench(app, common, run);
   add_fit(app, common, run);
+  add_check(app, common, run);
+  add_filter(app, common, run);
   add_fit_ltc(app, common, run);
   add_ies(app, common, run);
   add_units(app, common, run);

@@ -18,6 +18,8 @@ void add_bench(CLI::App& app, const Common& common, Run& run);
 void add_eval(CLI::App& app, const Common& common, Run& run);
 void add_validate(CLI::App& app, const Common& common, Run& run);
 void add_fit(CLI::App& app, const Common& common, Run& run);
+void add_check(CLI::App& app, const Common& common, Run& run);
+void add_filter(CLI::App& app, const Common& common, Run& run);
 void add_fit_ltc(CLI::App& app, const Common& common, Run& run);
 void add_ies(CLI::App& app, const Common& common, Run& run);
 void add_units(CLI::App& app, const Common& common, Run& run);

@@ -1,8 +1,7 @@
 #include "etendue/light_presets.h"
 
-#include "edit_distance.h"
+#include "named_preset.h"
 #include "number_text.h"
-#include "parameter_error.h"
 
 #include "etendue/spectrum.h"
 #include "etendue/units.h"
@@ -68,17 +67,6 @@ constexpr EfficacyPreset efficacies[] = {
     {"LuxCore default", WattsOf::electricity, 17, 17, "LuxCoreRender, light.efficiency"},
 };
 
-template <class Preset>
-Result<Preset> named(std::span<const Preset> all, std::string_view name, const char* what) {
-  std::vector<Candidate> candidates;
-  for (const Preset& known : all) {
-    if (known.name == name) return known;
-    candidates.push_back({std::string(known.name), std::string(known.name)});
-  }
-  return parameter_error("name", "PRESET_UNKNOWN", fmt::format("\"{}\" is no source whose {} is known", name, what),
-                         fmt::format("nearest: {}", fmt::join(nearest_candidates(name, candidates, 3), ", ")));
-}
-
 // "15 lm/W", "2856 K", "2856 K visible".
 Result<EfficacyPolicy> counted_policy(std::string_view text) {
   constexpr std::string_view band = "visible";
@@ -104,9 +92,9 @@ Result<EfficacyPolicy> counted_policy(std::string_view text) {
 }  // namespace
 
 std::span<const TemperaturePreset> temperature_presets() { return temperatures; }
-Result<TemperaturePreset> temperature_preset(std::string_view name) { return named(temperature_presets(), name, "temperature"); }
+Result<TemperaturePreset> temperature_preset(std::string_view name) { return named_preset(temperature_presets(), name, "source whose temperature"); }
 std::span<const EfficacyPreset> efficacy_presets() { return efficacies; }
-Result<EfficacyPreset> efficacy_preset(std::string_view name) { return named(efficacy_presets(), name, "efficacy"); }
+Result<EfficacyPreset> efficacy_preset(std::string_view name) { return named_preset(efficacy_presets(), name, "source whose efficacy"); }
 
 Result<EfficacyPolicy> efficacy_policy(std::string_view text) {
   text = trimmed(text);

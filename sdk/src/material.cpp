@@ -1,5 +1,7 @@
 #include "etendue/mitsuba_parts.h"
 
+#include "etendue/material_parameters.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,13 +12,6 @@ double index_of(double f0) {
   // eta is infinite at f0 = 1; this bound is an index of 4e6.
   const double root = std::sqrt(std::clamp(f0, 0.0, 0.999999));
   return (1 + root) / (1 - root);
-}
-
-// KHR_materials_ior: f0 = ((n - 1) / (n + 1))^2, and n = 0 stands for f0 = 1.
-double f0_of_ior(double ior) {
-  if (ior == 0) return 1;
-  const double root = (ior - 1) / (ior + 1);
-  return root * root;
 }
 
 // `specular` of Mitsuba's principled for a dielectric f0. It computes eta = 2 / (1 - sqrt(f0)) - 1, so f0 stays below 1; and it renders
@@ -36,8 +31,7 @@ struct ToMitsuba {
   }
   SurfaceModel operator()(const SpecularGlossiness& m) const { return fit_principled(two_colour_of(m)); }
   SurfaceModel operator()(const Standard& m) const {
-    const double f0 = 0.16 * m.reflectance * m.reflectance;
-    return Principled{m.base_colour, m.metal, m.roughness, specular_of_f0(f0, m.metal)};
+    return Principled{m.base_colour, m.metal, m.roughness, specular_of_f0(f0_of_reflectance(m.reflectance), m.metal)};
   }
 };
 

@@ -10,6 +10,7 @@
 #include "etendue/colour.h"
 #include "etendue/colour_space.h"
 #include "etendue/eval.h"
+#include "etendue/normal_filter.h"
 #include "etendue/spectrum.h"
 #include "etendue/srgb.h"
 
@@ -38,7 +39,7 @@ Json falloff(double radius) {
   Json curves;
   for (const double d : ratios(1, radius * 1.2, 400)) {
     const std::pair<const char*, Falloff> windows[] = {{"1/d^2", Falloff::inverse_square},
-                                                       {"window 1, n = 4 (ours, eq 26)", Falloff::frostbite},
+                                                       {"window 1, n = 4 (eq 26)", Falloff::frostbite},
                                                        {"glTF", Falloff::gltf},
                                                        {"window 2, n = 20 (eq 23)", {Falloff::Law::power, 20}},
                                                        {"window 3, smoothstep", Falloff::smoothstep},
@@ -78,6 +79,24 @@ Json srgb_curves() {
     curves["sRGB"].push_back(point(linear, 255 * exact));
     curves["power of 1 / 2.2"].push_back(point(linear, 255 * power));
     curves["difference"].push_back(point(linear, 255 * std::abs(power - exact)));
+  }
+  return curves;
+}
+
+// Lobes of three alphas after their normals are spread, by kappa; and what the nearest GGX lobe then misplaces.
+Json filtered_lobes() {
+  Json curves;
+  const std::pair<const char*, NormalFilter> filters[] = {
+      {"nearest GGX", NormalFilter::ggx}, {"slopes", NormalFilter::slopes}, {"listing 32 as printed", NormalFilter::listing32}};
+  for (const double kappa : ratios(1, 1e5, 200)) {
+    const double r = mean_normal_length(kappa);
+    constexpr double alphas[] = {0.01, 0.1, 0.3};
+    for (const auto& [name, filter] : filters) {
+      for (const double alpha : alphas)
+        curves["alphas"][fmt::format("{}, alpha {:g}", name, alpha)].push_back(point(kappa, filtered_lobe(alpha, r, filter).alpha));
+    }
+    for (const double alpha : alphas)
+      curves["misplaced"][fmt::format("alpha {:g}", alpha)].push_back(point(kappa, filtered_lobe(alpha, r).misplaced));
   }
   return curves;
 }
@@ -188,7 +207,8 @@ int main() {
                     {"sphere_without_horizon", sphere_without_horizon()},
                     {"inverse_square_errors", inverse_square_errors()},
                     {"edge_fit_errors", edge_fit_errors()},
-                    {"srgb_curves", srgb_curves()}};
+                    {"srgb_curves", srgb_curves()},
+                    {"filtered_lobes", filtered_lobes()}};
   fmt::print("{}\n", all.dump());
   return 0;
 }

@@ -1,5 +1,6 @@
-#include "etendue/picture.h"
+#include "etendue/picture_write.h"
 
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,6 +53,49 @@ TEST(Exr, AllLayersAndAttributesComeBack) {
   EXPECT_EQ(back->numbers.at("etendue:tenth"), 0.1);  // ours keep all digits
   EXPECT_EQ(back->texts.at("comments"), "direct light");
   EXPECT_EQ(back->texts.at("etendue:scene"), "kitchen.rig.json");
+}
+
+Picture level(std::uint32_t width, std::uint32_t height, float value) {
+  Picture p;
+  p.width = width, p.height = height;
+  Layer& layer = p.add("roughness", 1);
+  for (std::size_t i = 0; i < layer.pixels.size(); ++i) layer.pixels[i] = value + static_cast<float>(i);
+  return p;
+}
+
+TEST(ExrLevels, EveryLevelIsThere) {
+  const auto file = temporary("levels.exr");
+  const std::vector<Picture> levels{level(70, 5, 0.25f), level(35, 2, 1000), level(17, 1, 2000), level(8, 1, 3000),
+                                    level(4, 1, 4000),   level(2, 1, 5000),  level(1, 1, 6000)};
+  const Status written = write_exr_levels(levels, file);
+  ASSERT_TRUE(written.ok()) << written.error().text;
+  const auto input = OIIO::ImageInput::open(file.string());
+  ASSERT_TRUE(input) << OIIO::geterror();
+  for (int i = 0; i < 7; ++i) {
+    const Picture& expected = levels[static_cast<std::size_t>(i)];
+    ASSERT_TRUE(input->seek_subimage(0, i)) << i;
+    ASSERT_EQ(static_cast<std::uint32_t>(input->spec().width), expected.width);
+    ASSERT_EQ(static_cast<std::uint32_t>(input->spec().height), expected.height);
+    std::vector<float> pixels(expected.layers[0].pixels.size());
+    ASSERT_TRUE(input->read_image(0, i, 0, 1, OIIO::TypeDesc::FLOAT, pixels.data())) << input->geterror();
+    EXPECT_EQ(pixels, expected.layers[0].pixels) << i;
+  }
+  EXPECT_FALSE(input->seek_subimage(0, 7));
+}
+
+TEST(ExrLevels, RefusesWhatIsNoChain) {
+  const auto file = temporary("no_levels.exr");
+  const auto text = [&file](const std::vector<Picture>& levels) {
+    const Status written = write_exr_levels(levels, file);
+    return written ? std::string("written") : written.error().text;
+  };
+  EXPECT_EQ(text({}), "expected at least one level");
+  EXPECT_EQ(text({level(4, 4, 0), level(2, 1, 0)}), "level 1: expected 2 x 2 pixels");
+  EXPECT_EQ(text({level(4, 4, 0), level(2, 2, 0)}), "expected levels down to one pixel");
+  Picture other = level(1, 1, 0);
+  other.layers[0].name = "normal";
+  EXPECT_EQ(text({level(2, 2, 0), other}), "level 1: expected the layers of level 0");
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST(Exr, RefusesWhatIsNotAPicture) {

@@ -1,5 +1,5 @@
 #include "etendue/io.h"
-#include "etendue/picture.h"
+#include "etendue/picture_write.h"
 #include "exr_channels.h"
 
 #include <ImfChannelList.h>
@@ -10,6 +10,7 @@
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
+#include <ImfTiledOutputFile.h>
 
 #include <algorithm>
 #include <cstring>
@@ -93,6 +94,30 @@ Status check_layers(const Picture& picture, const std::filesystem::path& file) {
   return Done{};
 }
 
+// What the header says of the picture, and its channels.
+Status add_all(const Picture& picture, const std::filesystem::path& file, Imf::Header& header) {
+  header.compression() = Imf::ZIP_COMPRESSION;
+  for (const Layer& layer : picture.layers) {
+    for (int c = 0; c < layer.channels; ++c)
+      header.channels().insert(channel_name(layer.name, layer.channels, c), Imf::Channel(Imf::FLOAT));
+  }
+  if (Status added = add_numbers(picture, file, header); !added) return added;
+  return add_texts(picture, file, header);
+}
+
+Imf::FrameBuffer buffer_of(const Picture& picture) {
+  Imf::FrameBuffer buffer;
+  for (const Layer& layer : picture.layers) {
+    const std::size_t stride = sizeof(float) * static_cast<std::size_t>(layer.channels);
+    for (int c = 0; c < layer.channels; ++c) {
+      // OpenEXR takes one pointer type for reading and writing; nothing is written through it here.
+      char* base = reinterpret_cast<char*>(const_cast<float*>(layer.pixels.data() + c));
+      buffer.insert(channel_name(layer.name, layer.channels, c), Imf::Slice(Imf::FLOAT, base, stride, stride * picture.width));
+    }
+  }
+  return buffer;
+}
+
 }  // namespace
 
 Status write_exr(const Picture& picture, const std::filesystem::path& file) {
@@ -100,23 +125,40 @@ Status write_exr(const Picture& picture, const std::filesystem::path& file) {
   MemoryStream stream;
   try {
     Imf::Header header(static_cast<int>(picture.width), static_cast<int>(picture.height));
-    header.compression() = Imf::ZIP_COMPRESSION;
-    if (Status added = add_numbers(picture, file, header); !added) return added;
-    if (Status added = add_texts(picture, file, header); !added) return added;
-    Imf::FrameBuffer buffer;
-    for (const Layer& layer : picture.layers) {
-      const std::size_t stride = sizeof(float) * static_cast<std::size_t>(layer.channels);
-      for (int c = 0; c < layer.channels; ++c) {
-        const std::string name = channel_name(layer.name, layer.channels, c);
-        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-        // OpenEXR takes one pointer type for reading and writing; nothing is written through it here.
-        char* base = reinterpret_cast<char*>(const_cast<float*>(layer.pixels.data() + c));
-        buffer.insert(name, Imf::Slice(Imf::FLOAT, base, stride, stride * picture.width));
-      }
-    }
+    if (Status added = add_all(picture, file, header); !added) return added;
     Imf::OutputFile output(stream, header);
-    output.setFrameBuffer(buffer);
+    output.setFrameBuffer(buffer_of(picture));
     output.writePixels(static_cast<int>(picture.height));
+  } catch (const std::exception& e) {
+    return unsuitable(file, std::string("OpenEXR: ") + e.what());
+  }
+  return write_file(file, stream.bytes());
+}
+
+Status write_exr_levels(std::span<const Picture> levels, const std::filesystem::path& file) {
+  if (levels.empty()) return unsuitable(file, "expected at least one level");
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (Status checked = check_layers(levels[i], file); !checked) return checked;
+    const std::string level = "level " + std::to_string(i) + ": ";
+    const auto part = [&](std::uint32_t side) { return std::max(side >> std::min<std::size_t>(i, 31), 1u); };
+    const std::uint32_t width = part(levels[0].width), height = part(levels[0].height);
+    if (levels[i].width != width || levels[i].height != height)
+      return unsuitable(file, level + "expected " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
+    const auto same = [](const Layer& a, const Layer& b) { return a.name == b.name && a.channels == b.channels; };
+    if (!std::equal(levels[i].layers.begin(), levels[i].layers.end(), levels[0].layers.begin(), levels[0].layers.end(), same))
+      return unsuitable(file, level + "expected the layers of level 0");
+  }
+  if (levels.back().width > 1 || levels.back().height > 1) return unsuitable(file, "expected levels down to one pixel");
+  MemoryStream stream;
+  try {
+    Imf::Header header(static_cast<int>(levels[0].width), static_cast<int>(levels[0].height));
+    if (Status added = add_all(levels[0], file, header); !added) return added;
+    header.setTileDescription({64, 64, Imf::MIPMAP_LEVELS, Imf::ROUND_DOWN});
+    Imf::TiledOutputFile output(stream, header);
+    for (int level = 0; level < output.numLevels(); ++level) {
+      output.setFrameBuffer(buffer_of(levels[static_cast<std::size_t>(level)]));
+      output.writeTiles(0, output.numXTiles(level) - 1, 0, output.numYTiles(level) - 1, level);
+    }
   } catch (const std::exception& e) {
     return unsuitable(file, std::string("OpenEXR: ") + e.what());
   }

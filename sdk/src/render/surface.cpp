@@ -1,7 +1,10 @@
 #include "surface.h"
 
+#include "etendue/textured_surface.h"
+
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace etendue::rendering {
 namespace {
@@ -53,38 +56,46 @@ void fill_from_shape(const Thing& thing, SurfacePoint& out) {
   out.tangent = thing.shape_frame.vector({n.z, 0, -n.x});
 }
 
-double channel(const DecodedImage* image, const std::optional<Texture>& texture, Vec2d uv, double Rgba::*which) {
-  return image == nullptr ? 1.0 : sample(*image, *texture, uv).*which;
+void set_base_colour(SurfaceModel& model, const Rgb& colour) {
+  std::visit(
+      [&colour](auto& m) {
+        if constexpr (requires { m.base_colour; })
+          m.base_colour = colour;
+        else if constexpr (requires { m.diffuse; })
+          m.diffuse = colour;
+      },
+      model);
 }
 
-struct Resolve {
-  const Rgb& base_colour;
-  double metallic, roughness;  // factors from the texture
-  const Rgba& specular_gloss;  // likewise
-  eval::Brdf operator()(const Lambert&) const { return Lambert{base_colour}; }
-  eval::Brdf operator()(const Principled& m) const {
-    return Principled{base_colour, m.metallic * metallic, m.roughness * roughness, m.specular};
-  }
-  eval::Brdf operator()(const Standard& m) const {
-    return Standard{base_colour, m.metal * metallic, m.roughness * roughness, m.reflectance};
-  }
-  eval::Brdf operator()(const Conductor& m) const { return m; }
-  eval::Brdf operator()(const MetalRough& m) const {
-    return MetalRough{base_colour, m.metallic * metallic, m.roughness * roughness, m.ior};
-  }
-  eval::Brdf operator()(const SpecularGlossiness& m) const {
-    const Rgba& s = specular_gloss;
-    return two_colour_of({base_colour, m.specular * Rgb{s.r, s.g, s.b}, m.glossiness * s.a});
-  }
-};
+// As eval.h evaluates it: specular-glossiness by its two colours.
+eval::Brdf brdf_of(const SurfaceModel& model) {
+  return std::visit(
+      [](const auto& m) -> eval::Brdf {
+        if constexpr (std::is_same_v<std::decay_t<decltype(m)>, SpecularGlossiness>)
+          return two_colour_of(m);
+        else
+          return m;
+      },
+      model);
+}
 
 eval::Brdf brdf_at(const Paint& paint, Vec2d uv, const std::optional<Rgb>& base_colour) {
-  const double metallic = channel(paint.metal_rough, paint.material.metal_rough_texture, uv, &Rgba::b);
-  const double roughness = channel(paint.metal_rough, paint.material.metal_rough_texture, uv, &Rgba::g);
-  const Rgba specular_gloss =
-      paint.specular_gloss == nullptr ? Rgba{1, 1, 1, 1} : sample(*paint.specular_gloss, *paint.material.specular_gloss_texture, uv);
-  return std::visit(Resolve{base_colour ? *base_colour : base_colour_at(paint, uv), metallic, roughness, specular_gloss},
-                    paint.material.model);
+  SurfaceTexels texels;
+  if (paint.base_colour != nullptr) {
+    const Rgba texel = sample(*paint.base_colour, *paint.material.base_colour_texture, uv);
+    texels.base_colour = {texel.r, texel.g, texel.b};
+  }
+  if (paint.metal_rough != nullptr) {
+    const Rgba texel = sample(*paint.metal_rough, *paint.material.metal_rough_texture, uv);
+    texels.metallic = texel.b, texels.roughness = texel.g;
+  }
+  if (paint.specular_gloss != nullptr) {
+    const Rgba texel = sample(*paint.specular_gloss, *paint.material.specular_gloss_texture, uv);
+    texels.specular = {texel.r, texel.g, texel.b}, texels.glossiness = texel.a;
+  }
+  SurfaceModel model = textured(paint.material.model, texels);
+  if (base_colour) set_base_colour(model, *base_colour);
+  return brdf_of(model);
 }
 
 // The normal map's vector in the frame (s, t, n): s is the tangent made perpendicular to the interpolated normal, t = n x s. On the back of
