@@ -57,7 +57,7 @@ int run_check(const Common& common, const Options& options) {
   }
   session.result = {{"materials", Json::array()}};
   bool failed = false;
-  std::uint64_t texels = 0;
+  std::uint64_t texels = 0, decoded = 0;
   Bar bar(session);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
@@ -66,6 +66,7 @@ int run_check(const Common& common, const Options& options) {
     const Result<MaterialCheck> check = check_material(scene, material, options.ranges, options.import.max_pixels);
     if (!check) return session.fail(check.error());
     texels += std::uint64_t{check->width} * check->height;
+    decoded += check->images_decoded;
     const std::string name = material.name.empty() ? fmt::format("material {}", i) : material.name;
     if (!check->same_places)
       session.diagnostics.note("TEXTURE_TRANSFORMS",
@@ -99,7 +100,7 @@ int run_check(const Common& common, const Options& options) {
   }
   bar.report("materials", 1);
   if (scene.materials.empty()) session.print("no materials");
-  session.stats.update(Json{{"materials", scene.materials.size()}, {"texels", texels}});
+  session.stats.update(Json{{"materials", scene.materials.size()}, {"texels", texels}, {"images_decoded", decoded}});
   return session.finish(failed ? exit_bad_input : exit_done);
 }
 

@@ -47,3 +47,5 @@ constexpr std::array presets{
 
 std::span<const F0Preset> f0_presets() { return presets; }
 Result<F0Preset> f0_preset(std::string_view name) { return named_preset(f0_presets(), name, "material whose f0"); }
+
+}  // namespace etendue

@@ -87,7 +87,7 @@ Json srgb_curves() {
 Json filtered_lobes() {
   Json curves;
   const std::pair<const char*, NormalFilter> filters[] = {
-      {"nearest GGX", NormalFilter::ggx}, {"slopes", NormalFilter::slopes}, {"listing 32 as printed", NormalFilter::listing32}};
+      {"nearest GGX", NormalFilter::ggx}, {"slopes", NormalFilter::slopes}, {"listing 32", NormalFilter::listing32}};
   for (const double kappa : ratios(1, 1e5, 200)) {
     const double r = mean_normal_length(kappa);
     constexpr double alphas[] = {0.01, 0.1, 0.3};

@@ -17,6 +17,7 @@ struct MaterialCheck {
   Rgb albedo_least{}, albedo_greatest{}, f0_least{}, f0_greatest{};  // channel by channel
   // Layer "", linear: the colour of the worst doubt (DoubtInfo); sound texels dimmed and grey.
   Picture view;
+  std::uint64_t images_decoded = 0;
   bool same_places = true;  // false: its textures have transforms of their own, which are left out here
 
   double share(Doubt doubt) const {
