@@ -37,7 +37,7 @@ TEST(MetalRoughOf, WhatMetalRoughnessCanSayIsExactInBothReaders) {
 TEST(MetalRoughOf, ADielectricOfAnyF0IsExactInTheFullReader) {
   const ColourPair ruby{{0.4, 0.02, 0.05}, {0.08, 0.07, 0.09}};
   const MetalRoughColours found = metal_rough_of(ruby);
-  // The weight of 100 leaves a hundredth of what the core-only reader would move the diffuse colour by.
+  // The weight of 1000 leaves a thousandth of what the core-only reader would move the diffuse colour by.
   EXPECT_LT(rms(in_full_reader(found), ruby), 1e-3);
 }
 

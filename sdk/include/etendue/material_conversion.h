@@ -26,7 +26,7 @@ struct MetalRoughColours {
 ColourPair in_core_reader(const MetalRoughColours& colours);
 ColourPair in_full_reader(const MetalRoughColours& colours);
 
-// E_core + 100 E_full, the sums of the six squared differences in both readers.
+// E_core + 1000 E_full, the sums of the six squared differences in both readers.
 double metal_rough_cost(const MetalRoughColours& colours, const ColourPair& pair);
 
 // Right in a full reader, and in a core-only one as close to its optimum (fit_disney with DielectricF0::core) as that allows: least

@@ -10,7 +10,7 @@ namespace etendue {
 namespace {
 
 constexpr double core_f0 = 0.04;
-constexpr double weight_of_full = 100;
+constexpr double weight_of_full = 1000;
 constexpr double as_good = 6e-8;  // 6 x (1e-4)^2
 
 double squared(const ColourPair& a, const ColourPair& b) {
@@ -51,7 +51,7 @@ ColourPair in_core_reader(const MetalRoughColours& colours) { return pair_with(c
 ColourPair in_full_reader(const MetalRoughColours& colours) { return pair_with(colours, colours.dielectric_f0); }
 
 // For a given m each channel stands alone. Where k is free the full reader's f0 is exact, and what is left is
-//   (1 + w) ((1 - m) b - d)^2 + (m b - g)^2,  g = f - .04 (1 - m),  w = 100,
+//   (1 + w) ((1 - m) b - d)^2 + (m b - g)^2,  g = f - .04 (1 - m),  w = 1000,
 // a parabola in b. Where its least b asks for a k = (f - m b) / (1 - m) below 0 or above 1, k stands at that end and f0's difference in the
 // full reader comes in: + w (m b - (f - (1 - m) k))^2. The least over k is convex in b, so that b is held within [0, 1] by clamping.
 MetalRoughColours metal_rough_at(double metal, const ColourPair& given) {
