@@ -52,7 +52,8 @@ std::vector<double> average_lobe(double alpha, double kappa, double scale, int p
       const double s = std::sqrt(std::max(0.0, 1 - c * c));
       for (int j = 0; j < turns; ++j) {
         const double between = cosine * c + cosine * tangent * s * std::cos(pi * (j + 0.5) / turns);
-        sum += by_lobe ? kappa / (-2 * pi * std::expm1(-2 * kappa)) * std::exp(kappa * (between - 1)) / c * 2 * rest : ggx(between, alpha) * 2 * rest;
+        sum += by_lobe ? kappa / (-2 * pi * std::expm1(-2 * kappa)) * std::exp(kappa * (between - 1)) / c * 2 * rest
+                       : ggx(between, alpha) * 2 * rest;
       }
     }
     shares[static_cast<std::size_t>(p)] = sum / (rings * turns) / ggx(cosine, scale);
