@@ -92,7 +92,9 @@ Result<EfficacyPolicy> counted_policy(std::string_view text) {
 }  // namespace
 
 std::span<const TemperaturePreset> temperature_presets() { return temperatures; }
-Result<TemperaturePreset> temperature_preset(std::string_view name) { return named_preset(temperature_presets(), name, "source whose temperature"); }
+Result<TemperaturePreset> temperature_preset(std::string_view name) {
+  return named_preset(temperature_presets(), name, "source whose temperature");
+}
 std::span<const EfficacyPreset> efficacy_presets() { return efficacies; }
 Result<EfficacyPreset> efficacy_preset(std::string_view name) { return named_preset(efficacy_presets(), name, "source whose efficacy"); }
 

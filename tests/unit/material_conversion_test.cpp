@@ -244,7 +244,7 @@ TEST(ConvertMaterials, BadPicturesAreLocatedErrors) {
 
   Picture picture;
   picture.width = picture.height = 8;
-  picture.add("", 3).pixels[3 * (8 * 2 + 5)] = std::numeric_limits<float>::quiet_NaN();
+  picture.add("", 3).pixels[std::size_t{3} * (8 * 2 + 5)] = std::numeric_limits<float>::quiet_NaN();
   const auto exr = folder.path() / "nan.exr";
   ASSERT_TRUE(write_exr(picture, exr));
   scene.images[1].file = exr.string();
