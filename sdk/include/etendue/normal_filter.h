@@ -32,13 +32,11 @@ std::optional<NormalFilter> normal_filter_named(std::string_view name);  // "ggx
 
 struct FilteredLobe {
   double alpha = 1;
-  // Share of the facets that the lobe has in other places than the average: 1/2 int |D - D'| cos(h) dh, both normalised. No light of a
-  // luminance of at most L is off by more than L times twice that, before shadowing. Of `ggx` alone; 0 for the others, of which it is not
-  // known.
+  // Share of the facets that the lobe has in other places than the average: 1/2 int |D - D'| cos(h) dh, both normalised. Of `ggx` alone; 0
+  // for the others, of which it is not known.
   double misplaced = 0;
 };
-// Both within [0, 1]. With `ggx` alpha is within .4 % of the nearest lobe's, and the lobe misplaces no more than 1e-3 beyond what that
-// does.
+// Both within [0, 1]. With `ggx` the lobe misplaces no more than 1e-3 beyond what the nearest one does, and `misplaced` is right to 3e-3.
 FilteredLobe filtered_lobe(double alpha, double mean_length, NormalFilter filter = NormalFilter::ggx);
 
 // A normal map in tangent space, row by row: directions (not zero; taken as unit vectors), and alpha, one for all texels or one for each.
