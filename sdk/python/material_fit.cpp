@@ -1,5 +1,6 @@
 #include "elementwise.h"
 #include "module.h"
+#include "owned.h"
 
 #include "etendue/material_codes.h"
 #include "etendue/material_fit_batch.h"
@@ -15,15 +16,6 @@ using Three = std::tuple<double, double, double>;
 Rgb rgb_of(const Three& t) { return {std::get<0>(t), std::get<1>(t), std::get<2>(t)}; }
 Three tuple_of(const Rgb& c) { return {c.x, c.y, c.z}; }
 DielectricF0 dielectric_of(bool core) { return core ? DielectricF0::core : DielectricF0::free; }
-
-// Room that Python owns.
-template <class T>
-struct Owned {
-  explicit Owned(std::size_t count) : values(new T[count + 1]), owner(values, [](void* p) noexcept { delete[] static_cast<T*>(p); }) {}
-  NewArray<T> array(const Extents& extents) const { return NewArray<T>(values, extents.size(), extents.data(), owner); }
-  T* values;
-  nb::capsule owner;
-};
 
 }  // namespace
 

@@ -19,4 +19,6 @@ NB_MODULE(_core, m) {
   bind_hdri(m);
   bind_false_colour(m);
   bind_material_fit(m);
+  bind_plausibility(m);
+  bind_normal_filter(m);
 }

@@ -19,5 +19,7 @@ void bind_photometry(nanobind::module_& m);
 void bind_hdri(nanobind::module_& m);
 void bind_false_colour(nanobind::module_& m);
 void bind_material_fit(nanobind::module_& m);
+void bind_plausibility(nanobind::module_& m);
+void bind_normal_filter(nanobind::module_& m);
 
 }  // namespace etendue::python

@@ -14,7 +14,22 @@
 Whatever cannot be answered is an etendue.Error with code, text, hint, field.
 """
 
-from . import batch, camera, colour, colour_space, dialect, false_colour, hdri, material_fit, metering, photometry, pixel, spectrum
+from . import (
+    batch,
+    camera,
+    colour,
+    colour_space,
+    dialect,
+    false_colour,
+    hdri,
+    material_fit,
+    metering,
+    normal_filter,
+    photometry,
+    pixel,
+    plausibility,
+    spectrum,
+)
 from .conversion import Explanation, convert, explain
 from .errors import ClampedWarning, Error
 from .quantity import Quantity, Unit, dimensions, quantity, units
@@ -70,9 +85,11 @@ __all__ = [
     "hdri",
     "material_fit",
     "metering",
+    "normal_filter",
     "parse",
     "photometry",
     "pixel",
+    "plausibility",
     "quantity",
     "spectrum",
     "units",

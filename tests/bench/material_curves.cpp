@@ -1,0 +1,105 @@
+#include "material_curves.h"
+
+#include "etendue/energy_safe.h"
+#include "etendue/material_parameters.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+namespace etendue::bench {
+
+using Json = nlohmann::ordered_json;
+using namespace eval;
+
+namespace {
+
+constexpr double roughnesses[] = {0, 0.25, 0.5, 0.75, 1};
+
+// A sphere seen from afar along z under a distant light of light_lx, of which its radiance is kept to 1e-4. One BRDF for all of it.
+
+Json sphere(int size, const Vec3d& light, double light_lx, const Brdf& brdf) {
+  Json pixels = Json::array();
+  for (int row = 0; row < size; ++row) {
+    for (int column = 0; column < size; ++column) {
+      const double x = (2 * column + 1.0) / size - 1, y = 1 - (2 * row + 1.0) / size, r2 = x * x + y * y;
+      if (r2 >= 1) {
+        pixels.push_back(-1);
+        continue;
+      }
+      const Basis basis = basis_around({x, y, std::sqrt(1 - r2)});
+      const auto local = [&basis](const Vec3d& d) { return Vec3d{dot(d, basis.tangent), dot(d, basis.bitangent), dot(d, basis.normal)}; };
+      pixels.push_back(std::round(1e4 * light_lx * brdf_cos(brdf, local({0, 0, 1}), local(light)).x) / 1e4);
+    }
+  }
+  return pixels;
+}
+
+}  // namespace
+
+Json smoothness_remaps() {
+  Json curves;
+  for (int i = 0; i <= 100; ++i) {
+    for (const SmoothnessRemap remap : etendue::smoothness_remaps)
+      curves[std::string(name_of(remap))].push_back(Json::array({i / 100.0, alpha_of_smoothness(i / 100.0, remap)}));
+  }
+  return curves;
+}
+
+Json specular_occlusions() {
+  Json curves;
+  for (const double roughness : {0.0, 0.05, 0.1, 0.2, 0.4, 1.0}) {
+    for (int i = 0; i <= 100; ++i)
+      curves[fmt::format("roughness {:g}", roughness)].push_back(Json::array({i / 100.0, specular_occlusion(i / 100.0, 0.5, roughness)}));
+  }
+  return curves;
+}
+
+Json standard_albedo_curves() {
+  Json panels;
+  const auto albedos = standard_albedos();
+  for (const double roughness : roughnesses) {
+    const std::string name = fmt::format("roughness {:g}", roughness);
+    for (int degrees = 0; degrees < 90; degrees += 2) {
+      const double cosine = std::cos(degrees * pi / 180);
+      const auto add = [&](const char* panel, double value) { panels[panel][name].push_back(Json::array({degrees, value})); };
+      add("Disney's diffuse lobe", disney_albedo(roughness, cosine));
+      add("renormalised", frostbite_albedo(roughness, cosine));
+      const Standard common{{1, 1, 1}, 0, roughness, 0.5}, most{{1, 1, 1}, 0, roughness, 1};
+      add("with GGX, f0 = .04", standard_albedo(common, cosine, 1e-5).x);
+      add("with GGX, f0 = .16", standard_albedo(most, cosine, 1e-5).x);
+      for (const auto& [panel, surface] : {std::pair{"f0 = .04, energy-safe", common}, std::pair{"f0 = .16, energy-safe", most}})
+        add(panel, standard_albedo({surface, albedos}, cosine, 1e-5).x);
+    }
+  }
+  return panels;
+}
+
+Json masking_spheres(int size) {
+  Json rows;
+  const Vec3d light = normalised(Vec3d{-0.5, 0.7, 0.5});
+  for (const auto& [material, f0] : {std::pair{"black dielectric", 0.04}, std::pair{"chromium", 0.55}}) {
+    for (const auto& [form, masking] : {std::pair{"uncorrelated", Masking::separable}, std::pair{"correlated", Masking::correlated}}) {
+      for (const double roughness : {0.2, 0.4, 0.6, 0.8, 1.0}) {
+        const GgxLobe lobe{roughness * roughness, {f0, f0, f0}, 1, masking};
+        rows[fmt::format("{}, {}", material, form)][fmt::format("roughness {:g}", roughness)] = sphere(size, light, pi, lobe);
+      }
+    }
+  }
+  return rows;
+}
+
+Json diffuse_spheres(int size) {
+  Json rows;
+  const Vec3d light = normalised(Vec3d{-0.5, 0.7, 0.5});
+  for (const double roughness : roughnesses) {
+    const std::string name = fmt::format("roughness {:g}", roughness);
+    rows["Lambert"][name] = sphere(size, light, pi, Lambert{{0.8, 0.8, 0.8}});
+    rows["Disney"][name] = sphere(size, light, pi, DisneyDiffuse{{0.8, 0.8, 0.8}, roughness});
+    rows["renormalised"][name] = sphere(size, light, pi, FrostbiteDiffuse{{0.8, 0.8, 0.8}, roughness});
+  }
+  return rows;
+}
+
+}  // namespace etendue::bench
