@@ -17,23 +17,27 @@ namespace {
 
 constexpr double roughnesses[] = {0, 0.25, 0.5, 0.75, 1};
 
-// A sphere seen from afar along z under a distant light of light_lx, of which its radiance is kept to 1e-4. One BRDF for all of it.
-
-Json sphere(int size, const Vec3d& light, double light_lx, const Brdf& brdf) {
+// A sphere seen from afar along z: shade(normal) of its pixels, kept to 1e-4.
+template <class Shade>
+Json sphere(int size, Shade shade) {
   Json pixels = Json::array();
   for (int row = 0; row < size; ++row) {
     for (int column = 0; column < size; ++column) {
       const double x = (2 * column + 1.0) / size - 1, y = 1 - (2 * row + 1.0) / size, r2 = x * x + y * y;
-      if (r2 >= 1) {
-        pixels.push_back(-1);
-        continue;
-      }
-      const Basis basis = basis_around({x, y, std::sqrt(1 - r2)});
-      const auto local = [&basis](const Vec3d& d) { return Vec3d{dot(d, basis.tangent), dot(d, basis.bitangent), dot(d, basis.normal)}; };
-      pixels.push_back(std::round(1e4 * light_lx * brdf_cos(brdf, local({0, 0, 1}), local(light)).x) / 1e4);
+      pixels.push_back(r2 >= 1 ? -1 : std::round(1e4 * shade(Vec3d{x, y, std::sqrt(1 - r2)})) / 1e4);
     }
   }
   return pixels;
+}
+
+// Under a distant light of pi lx, so that white Lambert facing it has the luminance 1.
+Json lit_sphere(int size, const Brdf& brdf) {
+  const Vec3d light = normalised(Vec3d{-0.5, 0.7, 0.5});
+  return sphere(size, [&](const Vec3d& normal) {
+    const Basis basis = basis_around(normal);
+    const auto local = [&basis](const Vec3d& d) { return Vec3d{dot(d, basis.tangent), dot(d, basis.bitangent), dot(d, basis.normal)}; };
+    return pi * brdf_cos(brdf, local({0, 0, 1}), local(light)).x;
+  });
 }
 
 }  // namespace
@@ -49,7 +53,7 @@ Json smoothness_remaps() {
 
 Json specular_occlusions() {
   Json curves;
-  for (const double roughness : {0.0, 0.05, 0.1, 0.2, 0.4, 1.0}) {
+  for (const double roughness : {0.0, 0.05, 0.1, 0.2, 1.0}) {
     for (int i = 0; i <= 100; ++i)
       curves[fmt::format("roughness {:g}", roughness)].push_back(Json::array({i / 100.0, specular_occlusion(i / 100.0, 0.5, roughness)}));
   }
@@ -78,12 +82,17 @@ Json standard_albedo_curves() {
 
 Json masking_spheres(int size) {
   Json rows;
-  const Vec3d light = normalised(Vec3d{-0.5, 0.7, 0.5});
   for (const auto& [material, f0] : {std::pair{"black dielectric", 0.04}, std::pair{"chromium", 0.55}}) {
     for (const auto& [form, masking] : {std::pair{"uncorrelated", Masking::separable}, std::pair{"correlated", Masking::correlated}}) {
+      SpecularLobe lobe;
+      lobe.masking = masking;
+      const auto table = albedo_table(lobe);
       for (const double roughness : {0.2, 0.4, 0.6, 0.8, 1.0}) {
-        const GgxLobe lobe{roughness * roughness, {f0, f0, f0}, 1, masking};
-        rows[fmt::format("{}, {}", material, form)][fmt::format("roughness {:g}", roughness)] = sphere(size, light, pi, lobe);
+        const double alpha = roughness * roughness, reflectance = f0;
+        rows[fmt::format("{}, {}", material, form)][fmt::format("roughness {:g}", roughness)] = sphere(size, [&](const Vec3d& normal) {
+          const AlbedoParts parts = albedo_parts(*table, alpha, normal.z);
+          return reflectance * parts.f0_part + parts.f90_part;
+        });
       }
     }
   }
@@ -92,12 +101,11 @@ Json masking_spheres(int size) {
 
 Json diffuse_spheres(int size) {
   Json rows;
-  const Vec3d light = normalised(Vec3d{-0.5, 0.7, 0.5});
   for (const double roughness : roughnesses) {
     const std::string name = fmt::format("roughness {:g}", roughness);
-    rows["Lambert"][name] = sphere(size, light, pi, Lambert{{0.8, 0.8, 0.8}});
-    rows["Disney"][name] = sphere(size, light, pi, DisneyDiffuse{{0.8, 0.8, 0.8}, roughness});
-    rows["renormalised"][name] = sphere(size, light, pi, FrostbiteDiffuse{{0.8, 0.8, 0.8}, roughness});
+    rows["Lambert"][name] = lit_sphere(size, Lambert{{0.8, 0.8, 0.8}});
+    rows["Disney"][name] = lit_sphere(size, DisneyDiffuse{{0.8, 0.8, 0.8}, roughness});
+    rows["renormalised"][name] = lit_sphere(size, FrostbiteDiffuse{{0.8, 0.8, 0.8}, roughness});
   }
   return rows;
 }

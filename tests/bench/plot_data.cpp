@@ -2,6 +2,7 @@
 #include "diffuse_curves.h"
 #include "light_curves.h"
 #include "lobe_curves.h"
+#include "material_curves.h"
 #include "peers.h"
 #include "specular_curves.h"
 
@@ -208,7 +209,12 @@ int main() {
                     {"inverse_square_errors", inverse_square_errors()},
                     {"edge_fit_errors", edge_fit_errors()},
                     {"srgb_curves", srgb_curves()},
-                    {"filtered_lobes", filtered_lobes()}};
+                    {"filtered_lobes", filtered_lobes()},
+                    {"standard_albedos", standard_albedo_curves()},
+                    {"masking_spheres", masking_spheres(96)},
+                    {"diffuse_spheres", diffuse_spheres(96)},
+                    {"smoothness_remaps", smoothness_remaps()},
+                    {"specular_occlusions", specular_occlusions()}};
   fmt::print("{}\n", all.dump());
   return 0;
 }
