@@ -1,6 +1,7 @@
 #include "etendue/layered_surface.h"
 
 #include "etendue/material_fit.h"
+#include "etendue/material_parameters.h"
 #include "etendue/plausibility.h"
 
 #include <algorithm>
@@ -40,6 +41,8 @@ Standard mixed_parameters(const Standard& below, const Standard& above, double s
 
 Standard standard_of(const SurfaceModel& model) {
   if (const auto* standard = std::get_if<Standard>(&model)) return *standard;
+  if (const auto* m = std::get_if<MetalRough>(&model))
+    return {m->base_colour, m->metallic, m->roughness, reflectance_of_f0(f0_of_ior(m->ior)).value};
   const SurfaceColours colours = described(model);
   const DisneyColours best = colours.metal ? fit_disney_at(*colours.metal, colours.pair) : fit_disney(colours.pair).value;
   return {best.base_colour, best.metal, std::visit(RoughnessOf{}, model), best.reflectance};
