@@ -59,7 +59,7 @@ def filtered_many(alpha: ArrayLike, mean_length: ArrayLike, method: Method = "gg
         shapes = f"alpha {np.shape(alpha)}, mean_length {np.shape(mean_length)}"
         raise Error("SHAPE_MISMATCH", f"expected shapes that broadcast, found {shapes}", field="alpha") from None
     many: tuple[NDArray[np.float64], NDArray[np.float64]] = _core.filtered_lobes(
-        np.ascontiguousarray(a, np.float64), np.ascontiguousarray(r, np.float64), method
+        np.asarray(a, np.float64, order="C"), np.asarray(r, np.float64, order="C"), method
     )
     return many
 
@@ -76,10 +76,10 @@ def levels(normals: ArrayLike, alpha: ArrayLike, method: Method = "ggx") -> list
     alpha: one number, or one for each texel. A texel stands for the exact area under it, so that every level has the same mean. Errors:
     SHAPE_MISMATCH, METHOD_UNKNOWN, FIELD_UNSUITABLE (a normal without a direction, an alpha beyond [0, 1], with the place).
     """
-    field = np.ascontiguousarray(as_array(normals, "normals"), np.float32)
+    field = np.asarray(as_array(normals, "normals"), np.float32, order="C")
     if field.ndim != 3 or field.shape[-1] != 3:
         raise Error("SHAPE_MISMATCH", f"expected normals of height x width x 3, found shape {field.shape}", field="normals")
-    alphas = np.ascontiguousarray(as_array(alpha, "alpha"), np.float32)
+    alphas = np.asarray(as_array(alpha, "alpha"), np.float32, order="C")
     if alphas.ndim != 0 and alphas.shape != field.shape[:2]:
         raise Error("SHAPE_MISMATCH", f"expected one alpha or {field.shape[:2]} of them, found shape {alphas.shape}", field="alpha")
     return [Level(*level) for level in _core.filter_normals(field, alphas.reshape(-1), method)]

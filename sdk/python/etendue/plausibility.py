@@ -46,7 +46,7 @@ DOUBTS = tuple(Doubt(name, meaning, colour, 1 << i) for i, (name, meaning, colou
 
 
 def _colours(colours: ArrayLike, name: str) -> NDArray[np.float32]:
-    array = np.ascontiguousarray(as_array(colours, name), np.float32)
+    array = np.asarray(as_array(colours, name), np.float32, order="C")
     if array.ndim == 0 or array.shape[-1] != 3:
         raise Error("COLOUR_INVALID", f"expected three numbers in the last extent of {name}, found shape {array.shape}", field=name)
     return array
@@ -66,8 +66,8 @@ def flags(diffuse: ArrayLike, f0: ArrayLike, metal: ArrayLike | None = None, *, 
         given = as_array(metal, "metal")
         if given.ndim != 0 and given.shape != albedos.shape[:-1]:
             raise Error("SHAPE_MISMATCH", f"expected metal of shape {albedos.shape[:-1]}, found {given.shape}", field="metal")
-        masks = np.ascontiguousarray(np.broadcast_to(given, albedos.shape[:-1]), np.float32)
-    bits: NDArray[np.uint8] = _core.doubts(albedos, mirrors, masks, tuple(ranges))
+        masks = np.asarray(np.broadcast_to(given, albedos.shape[:-1]), np.float32, order="C")
+    bits: NDArray[np.uint8] = _core.doubts(albedos, mirrors, masks, ranges)
     return bits
 
 
