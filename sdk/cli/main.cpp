@@ -1,4 +1,5 @@
 // All verbs of the command `etendue`. launcher/main.cpp is what people start.
+#include "bake.h"
 #include "verbs.h"
 
 int main(int argc, char** argv) {
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   add_check(app, common, run);
   add_filter(app, common, run);
   add_fit_ltc(app, common, run);
+  add_bake(app, common, run);
   add_ies(app, common, run);
   add_units(app, common, run);
   add_common(app, common);

@@ -103,18 +103,18 @@ TEST(StandardAlbedo, MapAndItsMaximum) {
 
 TEST(EnergySafe, GivesBackNoMoreThanItGets) {
   double most = 0;
-  for (const double metal : {0.0, 0.5, 0.9}) {
+  for (const double metal : {0.0, 0.6}) {
     for (const double reflectance : reflectances) {
-      for (int i = 0; i <= 10; ++i) {
+      for (int i = 0; i <= 8; ++i) {
         // A channel of each kind: white, half and black.
-        const EnergySafeStandard safe = safe_of({{1, 0.5, 0}, metal, i / 10.0, reflectance});
+        const EnergySafeStandard safe = safe_of({{1, 0.5, 0}, metal, i / 8.0, reflectance});
         for (const double cosine : cosines) {
           const Rgb diffuse = safe_diffuse_albedo(safe, cosine);
           const Rgb whole = standard_albedo(safe.surface, cosine, 1e-6);
           const Rgb specular = whole - safe.surface.base_colour * ((1 - metal) * frostbite_albedo(safe.surface.roughness, cosine));
           for (int c = 0; c < 3; ++c) {
             const double albedo = specular[c] + diffuse[c];
-            EXPECT_LE(albedo, 1) << metal << " " << reflectance << " " << i / 10.0 << " " << cosine;
+            EXPECT_LE(albedo, 1) << metal << " " << reflectance << " " << i / 8.0 << " " << cosine;
             EXPECT_LE(albedo, whole[c] + 1e-9);
             EXPECT_NEAR(standard_albedo(safe, cosine, 1e-6)[c], albedo, 1e-5);
             most = std::max(most, albedo);

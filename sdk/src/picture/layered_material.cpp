@@ -26,6 +26,7 @@ constexpr int most_samples = 8;
 constexpr std::uint32_t band_rows = 64;
 // f0 of a dielectric of that index is .16, the largest that reflectance reaches.
 constexpr double baked_ior = 7.0 / 3;
+constexpr double same_reflectance = 1e-9;
 
 Error invalid(std::string text) { return {"LAYERS_INVALID", std::move(text), {}, {}, {}}; }
 
@@ -93,7 +94,7 @@ Plan plan_of(const LayeredMaterial& material) {
     const Material& m = layer.material;
     plan.normal = plan.normal || m.normal_map.has_value();
     plan.specular = plan.specular || material.blend == LayerBlend::colours || !has_one_reflectance(m.model) ||
-                    std::abs(reflectance_factor(m.model) - plan.reflectance) > 1e-9;
+                    std::abs(reflectance_factor(m.model) - plan.reflectance) > same_reflectance;
     plan.emission = std::max({plan.emission, m.emissive.x, m.emissive.y, m.emissive.z});
   }
   plan.emissive = plan.emission > 0;
@@ -274,7 +275,10 @@ class Baker {
     };
     Material& m = baked.material;
     m.name = material_.name;
-    const double ior = plan_.specular ? baked_ior : ior_of_f0(f0_of_reflectance(plan_.reflectance));
+    // .5 is the index 1.5, which readers take without being told.
+    const double ior = plan_.specular                                          ? baked_ior
+                       : std::abs(plan_.reflectance - 0.5) <= same_reflectance ? MetalRough{}.ior
+                                                                               : ior_of_f0(f0_of_reflectance(plan_.reflectance));
     m.model = MetalRough{{1, 1, 1}, 1, 1, ior};
     m.base_colour_texture = texture(Encoding::srgb);
     m.metal_rough_texture = texture(Encoding::linear);
