@@ -26,9 +26,9 @@ void add_black(Writer& writer, pugi::xml_node shape) {
 }
 
 // What the shape reflects: its surface material, else black.
-void add_surface(Writer& writer, const LightEntry& entry, pugi::xml_node shape) {
+void add_surface_of(Writer& writer, const LightEntry& entry, pugi::xml_node shape) {
   if (entry.light.surface_material) {
-    add_reference(shape, material_id(writer.scene, *entry.light.surface_material));
+    add_surface(writer, shape, *entry.light.surface_material);
   } else if (!entry.lit) {
     add_black(writer, shape);
   }
@@ -47,7 +47,7 @@ pugi::xml_node add_area_emitter(Writer& writer, const LightEntry& entry, pugi::x
 
 void add_emission(Writer& writer, const LightEntry& entry, pugi::xml_node shape, const Rgb& radiance) {
   if (entry.lit) add_rgb(add_area_emitter(writer, entry, shape), "radiance", radiance);
-  add_surface(writer, entry, shape);
+  add_surface_of(writer, entry, shape);
 }
 
 // The other side of a planar light: half a turn about its Y axis.
@@ -86,7 +86,7 @@ Status write_mesh_body(Writer& writer, const LightEntry& entry, Mesh mesh, const
     return Done{};
   }
   shape->append_move(emitter);
-  add_surface(writer, entry, *shape);
+  add_surface_of(writer, entry, *shape);
   return Done{};
 }
 

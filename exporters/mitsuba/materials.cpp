@@ -1,5 +1,6 @@
 #include "etendue/unshown.h"
 
+#include "lobes.h"
 #include "textures.h"
 #include "writer.h"
 
@@ -57,6 +58,95 @@ Status add_principled(Writer& writer, pugi::xml_node bsdf, const Material& mater
   return Done{};
 }
 
+// lobes.h says what they are.
+Status add_reflecting_lobes(Writer& writer, pugi::xml_node bsdf, const Material& material, const ShownLobes& lobes) {
+  if (lobes.anisotropic != 0) add_float(bsdf, "anisotropic", lobes.anisotropic);
+  if (lobes.sheen > 0) {
+    add_float(bsdf, "sheen", lobes.sheen);
+    add_float(bsdf, "sheen_tint", lobes.sheen_tint);
+  }
+  if (!(lobes.clearcoat > 0)) return Done{};
+  add_float(bsdf, "clearcoat_gloss", lobes.clearcoat_gloss);
+  if (lobes.clearcoat_texture)
+    return add_grey_texture(writer, bsdf, "clearcoat", *lobes.clearcoat_texture, 0, lobes.clearcoat, name_for_losses(material));
+  add_float(bsdf, "clearcoat", lobes.clearcoat);
+  return Done{};
+}
+
+// <bsdf type="blendbsdf"> with the weight of its second part, bsdf_1.
+Result<pugi::xml_node> add_blend(Writer& writer, pugi::xml_node parent, const char* name, double weight,
+                                 const std::optional<Texture>& texture, int channel, const Material& material) {
+  pugi::xml_node blend = add_plugin(parent, "bsdf", "blendbsdf", {}, name);
+  if (!texture) {
+    add_float(blend, "weight", weight);
+  } else if (Status s = add_grey_texture(writer, blend, "weight", *texture, channel, weight, name_for_losses(material)); !s) {
+    return s.error();
+  }
+  return blend;
+}
+
+// What lets light pass in a direction: the base colour's tint, the twin's roughness.
+Status add_passing(Writer& writer, pugi::xml_node blend, const Material& material, const Principled& model, const ShownLobes& lobes) {
+  pugi::xml_node bsdf = add_plugin(blend, "bsdf", lobes.solid ? "principled" : "principledthin", {}, "bsdf_1");
+  if (Status s = add_base_colour(writer, bsdf, "base_color", material, model.base_colour); !s) return s;
+  if (Status s = add_scalar(writer, bsdf, "roughness", material, 1, model.roughness); !s) return s;
+  if (lobes.anisotropic != 0) add_float(bsdf, "anisotropic", lobes.anisotropic);
+  add_float(bsdf, "spec_trans", 1);
+  // Mitsuba refuses an index of 1.
+  add_float(bsdf, "eta", std::max(lobes.ior, 1.0001));
+  return Done{};
+}
+
+Status add_diffused(Writer& writer, pugi::xml_node blend, const Material& material, const ShownLobes& lobes) {
+  pugi::xml_node bsdf = add_plugin(blend, "bsdf", "principledthin", {}, "bsdf_1");
+  add_float(bsdf, "diff_trans", 2);
+  if (lobes.diffused_colour_texture)
+    return add_colour_texture(writer, bsdf, "base_color", *lobes.diffused_colour_texture, lobes.diffused_colour, name_for_losses(material));
+  add_rgb(bsdf, "base_color", clamped(writer, material, lobes.diffused_colour));
+  return Done{};
+}
+
+// twosided(principled), the second only where it is needed: Mitsuba's `twosided` takes nothing that transmits.
+Status add_reflecting(Writer& writer, pugi::xml_node parent, const char* name, const Material& material, Principled model,
+                      const ShownLobes& lobes) {
+  model.metallic = lobes.metallic.value_or(model.metallic);
+  if (lobes.transmits() && material.double_sided) parent = add_plugin(parent, "bsdf", "twosided", {}, name), name = "";
+  pugi::xml_node bsdf = add_plugin(parent, "bsdf", "principled", {}, name);
+  if (Status s = add_principled(writer, bsdf, material, model); !s) return s;
+  return add_reflecting_lobes(writer, bsdf, material, lobes);
+}
+
+// blend(blend(what reflects, what is diffused to the other side), what passes). The order of the parts in the file is theirs in the blend.
+Status add_principled_with_lobes(Writer& writer, pugi::xml_node parent, const Material& material, Principled model,
+                                 const ShownLobes& lobes) {
+  model.specular = lobes.specular.value_or(model.specular);
+  model.roughness = lobes.roughness.value_or(model.roughness);
+  pugi::xml_node passing, diffusing, inner = parent;
+  const char* name = "";
+  if (lobes.passed > 0) {
+    Result<pugi::xml_node> blend = add_blend(writer, inner, name, lobes.passed, lobes.passed_texture, 0, material);
+    if (!blend) return blend.error();
+    inner = passing = *blend, name = "bsdf_0";
+  }
+  if (lobes.diffused > 0) {
+    Result<pugi::xml_node> blend = add_blend(writer, inner, name, lobes.diffused, lobes.diffused_texture, 3, material);
+    if (!blend) return blend.error();
+    inner = diffusing = *blend, name = "bsdf_0";
+  }
+  if (Status s = add_reflecting(writer, inner, name, material, model, lobes); !s) return s;
+  if (diffusing) {
+    if (Status s = add_diffused(writer, diffusing, material, lobes); !s) return s;
+  }
+  return passing ? add_passing(writer, passing, material, model, lobes) : Status(Done{});
+}
+
+ShownLobes lobes_of(const Writer& writer, const Material& material) {
+  if (writer.lobes == MitsubaLobes::as_far_as_can_be) return shown_lobes(material, writer.options.max_depth);
+  ShownLobes none;
+  none.losses = unshown_losses(material);
+  return none;
+}
+
 // surface_bsdfs.py says what the parameters of the three mean.
 Status add_standard(Writer& writer, pugi::xml_node bsdf, const Material& material, const Standard& model) {
   if (Status s = add_base_colour(writer, bsdf, "base_colour", material, model.base_colour); !s) return s;
@@ -106,12 +196,12 @@ void add_conductor(Writer& writer, pugi::xml_node bsdf, const Material& material
   }
 }
 
-Status add_model(Writer& writer, pugi::xml_node parent, const Material& material) {
+Status add_model(Writer& writer, pugi::xml_node parent, const Material& material, const ShownLobes& lobes) {
   if (const auto* lambert = std::get_if<Lambert>(&material.model)) {
     return add_base_colour(writer, add_plugin(parent, "bsdf", "diffuse"), "reflectance", material, lambert->base_colour);
   }
   if (const auto* principled = std::get_if<Principled>(&material.model)) {
-    return add_principled(writer, add_plugin(parent, "bsdf", "principled"), material, *principled);
+    return add_principled_with_lobes(writer, parent, material, *principled, lobes);
   }
   if (const auto* standard = std::get_if<Standard>(&material.model)) {
     return add_standard(writer, add_plugin(parent, "bsdf", "etendue_standard"), material, *standard);
@@ -152,10 +242,10 @@ void report_twin(Writer& writer, const Material& material) {
 
 void report_model(Writer& writer, const Material& material) {
   if (writer.parts == MitsubaParts::built_in) report_twin(writer, material);
-  for (const Loss& loss : unshown_losses(material)) writer.losses.add(name_for_losses(material) + ": " + loss.what, loss.effect);
+  for (const Loss& loss : lobes_of(writer, material).losses) writer.losses.add(name_for_losses(material) + ": " + loss.what, loss.effect);
 }
 
-Status add_shaded(Writer& writer, pugi::xml_node parent, const Material& material) {
+Status add_shaded(Writer& writer, pugi::xml_node parent, const Material& material, const ShownLobes& lobes) {
   pugi::xml_node inner = parent;
   if (material.normal_map) {
     inner = add_plugin(parent, "bsdf", "normalmap");
@@ -164,12 +254,34 @@ Status add_shaded(Writer& writer, pugi::xml_node parent, const Material& materia
     const NormalMap& map = *material.normal_map;
     if (Status s = add_normal_texture(writer, inner, "normalmap", map.texture, map.scale, name_for_losses(material)); !s) return s;
   }
-  return add_model(writer, inner, material);
+  return add_model(writer, inner, material, lobes);
+}
+
+std::string medium_id(const Scene& scene, std::uint32_t material) { return "medium_" + material_id(scene, material); }
+
+// Absorption alone: nothing is scattered. Mitsuba refuses colours above 1, so the largest is its scale; and it chooses distances by one
+// channel's absorption, which must not be 0: 1e-5 of the largest.
+void add_medium(Writer& writer, const std::string& id, const Rgb& absorption_per_m) {
+  const double scale = std::max({absorption_per_m.x, absorption_per_m.y, absorption_per_m.z, 1e-12});
+  pugi::xml_node medium = add_plugin(writer.root, "medium", "homogeneous", id);
+  Rgb relative = absorption_per_m / scale;
+  for (int c = 0; c < 3; ++c) relative[c] = std::max(relative[c], 1e-5);
+  add_rgb(medium, "sigma_t", relative);
+  add_float(medium, "scale", scale);
+  add_rgb(medium, "albedo", {0, 0, 0});
+}
+
+Status add_coverage(Writer& writer, pugi::xml_node mask, const Material& material) {
+  if (material.base_colour_texture)
+    return add_grey_texture(writer, mask, "opacity", *material.base_colour_texture, 3, material.base_alpha, name_for_losses(material));
+  add_float(mask, "opacity", std::clamp(material.base_alpha, 0.0, 1.0));
+  return Done{};
 }
 
 // mask(twosided(normalmap(model))), each only where it is needed. The outermost element carries the id.
 Status add_material(Writer& writer, const Material& authored, const std::string& id) {
   const Material material = mitsuba_twin(authored, writer.parts);
+  const ShownLobes lobes = lobes_of(writer, authored);
   pugi::xml_node inner = writer.root;
   const std::size_t before = static_cast<std::size_t>(std::distance(inner.begin(), inner.end()));
   if (has_holes(material, writer.parts)) {
@@ -180,8 +292,12 @@ Status add_material(Writer& writer, const Material& authored, const std::string&
       return s;
     }
   }
-  if (material.double_sided) inner = add_plugin(inner, "bsdf", "twosided");
-  if (Status s = add_shaded(writer, inner, material); !s) return s;
+  if (lobes.blended) {
+    inner = add_plugin(inner, "bsdf", "mask");
+    if (Status s = add_coverage(writer, inner, material); !s) return s;
+  }
+  if (material.double_sided && !lobes.transmits()) inner = add_plugin(inner, "bsdf", "twosided");
+  if (Status s = add_shaded(writer, inner, material, lobes); !s) return s;
   pugi::xml_node outermost = *std::next(writer.root.begin(), static_cast<std::ptrdiff_t>(before));
   outermost.append_attribute("id") = id.c_str();
   return Done{};
@@ -203,6 +319,19 @@ bool has_holes(const Material& material, MitsubaParts parts) {
   return material.alpha_cutoff && mitsuba_twin(material, parts).base_colour_texture;
 }
 
+bool is_passed(const Writer& writer, const Material& material) {
+  if (has_holes(material, writer.parts)) return true;
+  return writer.lobes == MitsubaLobes::as_far_as_can_be && (material.blended || absorption_of(material));
+}
+
+void add_surface(const Writer& writer, pugi::xml_node shape, std::uint32_t material) {
+  add_reference(shape, material_id(writer.scene, material));
+  if (writer.lobes == MitsubaLobes::as_ours || material == no_index || !absorption_of(writer.scene.materials[material])) return;
+  pugi::xml_node medium = shape.append_child("ref");
+  medium.append_attribute("id") = medium_id(writer.scene, material).c_str();
+  medium.append_attribute("name") = "interior";
+}
+
 Status write_materials(Writer& writer) {
   const auto uses_default = [](const Object& object) { return object.material == no_index; };
   if (std::any_of(writer.scene.objects.begin(), writer.scene.objects.end(), uses_default)) {
@@ -214,6 +343,8 @@ Status write_materials(Writer& writer) {
     const Material& material = writer.scene.materials[index];
     report_model(writer, material);
     if (Status s = add_material(writer, material, material_id(writer.scene, index)); !s) return s;
+    if (const auto absorption = lobes_of(writer, material).absorption_per_m)
+      add_medium(writer, medium_id(writer.scene, index), *absorption);
   }
   return Done{};
 }

@@ -44,10 +44,10 @@ bool has_sun(const Scene& scene) {
 
 void write_integrator(Writer& writer) {
   // `path` takes the border of a hole for a surface that it may not pass again at depth 2, and its shadow rays do not see holes.
-  const bool holes = std::any_of(writer.scene.objects.begin(), writer.scene.objects.end(), [&](const Object& object) {
-    return object.material != no_index && has_holes(writer.scene.materials[object.material], writer.parts);
+  const bool passed = std::any_of(writer.scene.objects.begin(), writer.scene.objects.end(), [&](const Object& object) {
+    return object.material != no_index && is_passed(writer, writer.scene.materials[object.material]);
   });
-  add_integer(add_plugin(writer.root, "integrator", holes ? "volpath" : "path"), "max_depth", writer.options.max_depth);
+  add_integer(add_plugin(writer.root, "integrator", passed ? "volpath" : "path"), "max_depth", writer.options.max_depth);
 }
 
 void write_sensor(Writer& writer, const Camera& camera) {
@@ -110,19 +110,20 @@ class SceneFiles {
  public:
   // Errors: SCENE_INVALID, CAMERA_MISSING.
   static Result<std::unique_ptr<SceneFiles>> begin(const Scene& scene, const std::filesystem::path& file, const ExportOptions& options,
-                                                   MitsubaParts parts, Diagnostics& diagnostics) {
+                                                   MitsubaParts parts, MitsubaLobes lobes, Diagnostics& diagnostics) {
     if (const Diagnostics found = validate(scene); found.has_errors()) return invalid(found);
     const Bounds bounds = bounds_of(scene);
     Result<Camera> camera = camera_of(scene, bounds, options, diagnostics);
     if (!camera) return camera.error();
-    return std::unique_ptr<SceneFiles>(new SceneFiles(scene, file, bounds, std::move(*camera), parts));
+    return std::unique_ptr<SceneFiles>(new SceneFiles(scene, file, bounds, std::move(*camera), parts, lobes));
   }
 
   Status add(const std::filesystem::path& file, const ExportOptions& options, LossReport& losses) {
     pugi::xml_document document;
     pugi::xml_node root = document.append_child("scene");
     root.append_attribute("version") = "3.0.0";
-    Writer writer{scene_, options, assets_, root, losses, bounds_, camera_.transform.translation, parts_, extent_of(bounds_, camera_)};
+    Writer writer{
+        scene_, options, assets_, root, losses, bounds_, camera_.transform.translation, parts_, lobes_, extent_of(bounds_, camera_)};
     if (Status s = write_scene(writer, camera_); !s) return s.error();
     std::ostringstream text;
     document.save(text, "  ");
@@ -143,20 +144,22 @@ class SceneFiles {
   }
 
  private:
-  SceneFiles(const Scene& scene, const std::filesystem::path& file, const Bounds& bounds, Camera camera, MitsubaParts parts)
-      : scene_(scene), bounds_(bounds), camera_(std::move(camera)), parts_(parts), assets_(file) {}
+  SceneFiles(const Scene& scene, const std::filesystem::path& file, const Bounds& bounds, Camera camera, MitsubaParts parts,
+             MitsubaLobes lobes)
+      : scene_(scene), bounds_(bounds), camera_(std::move(camera)), parts_(parts), lobes_(lobes), assets_(file) {}
 
   const Scene& scene_;
   Bounds bounds_;
   Camera camera_;
   MitsubaParts parts_;
+  MitsubaLobes lobes_;
   AssetFolder assets_;
   std::vector<std::pair<std::filesystem::path, std::string>> texts_;
 };
 
 class MitsubaExporter : public Exporter {
  public:
-  explicit MitsubaExporter(MitsubaParts parts) : parts_(parts) {}
+  MitsubaExporter(MitsubaParts parts, MitsubaLobes lobes) : parts_(parts), lobes_(lobes) {}
 
   FormatInfo describe() const override {
     return {"mitsuba", "Mitsuba 3", {".xml"}, "Scene file of the Mitsuba 3 renderer, with PLY and OpenEXR files in a folder beside it"};
@@ -164,7 +167,7 @@ class MitsubaExporter : public Exporter {
 
   Result<Exported> write(const Scene& scene, const std::filesystem::path& file, const ExportOptions& options) const override {
     Exported exported;
-    auto files = SceneFiles::begin(scene, file, options, parts_, exported.diagnostics);
+    auto files = SceneFiles::begin(scene, file, options, parts_, lobes_, exported.diagnostics);
     if (!files) return files.error();
     if (Status s = (*files)->add(file, options, exported.losses); !s) return s.error();
     auto written = (*files)->commit();
@@ -175,17 +178,20 @@ class MitsubaExporter : public Exporter {
 
  private:
   MitsubaParts parts_;
+  MitsubaLobes lobes_;
 };
 
 }  // namespace
 }  // namespace mitsuba
 
-std::unique_ptr<Exporter> make_mitsuba_exporter(MitsubaParts parts) { return std::make_unique<mitsuba::MitsubaExporter>(parts); }
+std::unique_ptr<Exporter> make_mitsuba_exporter(MitsubaParts parts, MitsubaLobes lobes) {
+  return std::make_unique<mitsuba::MitsubaExporter>(parts, lobes);
+}
 
 Result<MitsubaLightByLight> write_mitsuba_light_by_light(const Scene& scene, const std::filesystem::path& file,
                                                          const ExportOptions& options, MitsubaParts parts) {
   MitsubaLightByLight result;
-  auto files = mitsuba::SceneFiles::begin(scene, file, options, parts, result.all.diagnostics);
+  auto files = mitsuba::SceneFiles::begin(scene, file, options, parts, MitsubaLobes::as_ours, result.all.diagnostics);
   if (!files) return files.error();
   if (Status s = (*files)->add(file, options, result.all.losses); !s) return s.error();
   std::vector<std::uint32_t> lit = options.lit;

@@ -18,11 +18,11 @@ bool is_sheared(const Transform& t) {
          cosine(t.columns[1], t.columns[2]) > 1e-7;
 }
 
-void add_sphere(Writer& writer, const std::string& id, const Object& object, double radius, const std::string& bsdf) {
+void add_sphere(Writer& writer, const std::string& id, const Object& object, double radius) {
   pugi::xml_node shape = add_plugin(writer.root, "shape", "sphere", id);
   add_point(shape, "center", object.transform.translation);
   add_float(shape, "radius", radius * length(object.transform.columns[0]));
-  add_reference(shape, bsdf);
+  add_surface(writer, shape, object.material);
 }
 
 // Mirrored maps turn the winding round, and Mitsuba's geometric normal with it; the front stays the front if the indices turn, too.
@@ -75,23 +75,22 @@ Status write_objects(Writer& writer) {
     const Object& object = scene.objects[i];
     if (is_all_hole(writer, object)) continue;
     const std::string id = "object_" + std::to_string(i) + "_" + id_safe(object.name);
-    const std::string bsdf = material_id(scene, object.material);
     const bool textured = object.material != no_index && has_textures(scene.materials[object.material], writer.parts);
     if (const auto* sphere = std::get_if<SphereGeometry>(&object.geometry); sphere && !textured) {
-      add_sphere(writer, id, object, sphere->radius, bsdf);
+      add_sphere(writer, id, object, sphere->radius);
       continue;
     }
     if (const auto* plane = std::get_if<PlaneGeometry>(&object.geometry); plane && !textured && !is_sheared(object.transform)) {
       pugi::xml_node shape = add_plugin(writer.root, "shape", "rectangle", id);
       add_matrix(shape, "to_world", plane_to_world(object.transform, plane->size));
-      add_reference(shape, bsdf);
+      add_surface(writer, shape, object.material);
       continue;
     }
     const Mesh mesh = tessellated(object.geometry, scene.meshes);
     report_mirrored_normals(writer, object, mesh);
     Result<pugi::xml_node> shape = add_mesh_shape(writer, id, mesh, object.transform, mesh.normals.empty());
     if (!shape) return shape.error();
-    add_reference(*shape, bsdf);
+    add_surface(writer, *shape, object.material);
   }
   return Done{};
 }

@@ -7,6 +7,7 @@
 #include "mitsuba.h"
 #include "xml.h"
 
+#include <cstdint>
 #include <string>
 
 namespace etendue::mitsuba {
@@ -20,6 +21,7 @@ struct Writer {
   Bounds bounds;  // of the scene
   Vec3d eye;      // of the camera
   MitsubaParts parts;
+  MitsubaLobes lobes;
   double extent_m;  // length that the scene, its camera and the origin fit into: floats are as coarse as 6e-8 of it
 };
 
@@ -30,6 +32,10 @@ std::string material_id(const Scene& scene, std::uint32_t material);
 bool has_textures(const Material& material, MitsubaParts parts);
 // Some part of the surface is a hole.
 bool has_holes(const Material& material, MitsubaParts parts);
+// The material as the surface of `shape`, and of what lies behind it.
+void add_surface(const Writer& writer, pugi::xml_node shape, std::uint32_t material);
+// Light that gets through has to be followed by `volpath`.
+bool is_passed(const Writer& writer, const Material& material);
 
 // objects.cpp
 Status write_objects(Writer& writer);

@@ -93,19 +93,25 @@ void Materials::read_specular_glossiness(Material& out, const std::string& mater
   out.specular_gloss_texture = texture(*extension, pointer, "specularGlossinessTexture", Encoding::srgb);
 }
 
-// A mesh carries one set of texture coordinates: the base colour's, else that of the first texture.
+// A mesh carries one set of texture coordinates: the base colour's, else that of the first texture. Those of lobes, which our pictures do
+// not show, come last; an anisotropic surface has its direction from coordinates.
 void Materials::choose_uv_set(Entry& entry, const std::string& pointer) {
   const Material& m = entry.material;
   entry.wants_tangents = m.normal_map.has_value();
   std::optional<int> lost;
   for_each_texture(m, [&](const std::string& role, const Texture& texture) {
-    if (role == "occlusion" || (role.find('.') != std::string::npos && !role.starts_with("fallback."))) return;  // in no picture
+    if (role == "occlusion" || (role.find('.') != std::string::npos && !role.starts_with("fallback."))) return;  // in no picture of ours
     if (!entry.wants_uvs) {
       entry.wants_uvs = true;
       entry.uv_set = texture.uv_set;
     } else if (texture.uv_set != entry.uv_set && !lost) {
       lost = texture.uv_set;
     }
+  });
+  for_each_texture(m, [&](const std::string& role, const Texture& texture) {
+    if (entry.wants_uvs || role == "occlusion") return;
+    entry.wants_uvs = true;
+    entry.uv_set = texture.uv_set;
   });
   if (lost)
     asset_.warning("NOT_REPRESENTED",

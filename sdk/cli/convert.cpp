@@ -47,7 +47,7 @@ const Registry& exporters() {
     auto* const formats = new Registry;  // lives as long as the program
     formats->add(make_rig_exporter());
     formats->add(make_gltf_exporter());
-    formats->add(make_mitsuba_exporter());
+    formats->add(make_mitsuba_exporter(MitsubaParts::built_in, MitsubaLobes::as_far_as_can_be));
     formats->add(make_ies_exporter());
     formats->add(make_eulumdat_exporter());
     return formats;
@@ -256,7 +256,8 @@ void add_convert(CLI::App& app, const Common& common, Run& run) {
   verb->add_flag("--force", options->force, "Replace what is there");
   add_limits(*verb, options->import);
   verb->footer(
-      "\nExamples:\n  etendue convert kitchen.rig.json kitchen.xml\n  etendue convert chair.glb chair_mr.glb --materials metal-rough\n  "
+      "\nExamples:\n  etendue convert kitchen.rig.json kitchen.xml\n  etendue convert glass.glb glass.xml --depth 8\n  etendue convert "
+      "chair.glb chair_mr.glb --materials metal-rough\n  "
       "etendue convert assets/ scenes/ --to .xml --jobs 4 --loss "
       "losses.json");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_convert(common, *options); }; });

@@ -22,7 +22,7 @@ void def_batch(nb::module_& m, const char* name, Batch batch, const char* argume
   m.def(
       name,
       [batch](const Array<T>& from, const Extra&... extra) {
-        constexpr std::size_t in = sizeof(From) / sizeof(T), out = sizeof(To) / sizeof(T);
+        constexpr std::size_t number = sizeof(T), in = sizeof(From) / number, out = sizeof(To) / number;
         const std::span<const From> elements = span_of<From>(from);
         auto* values = new T[elements.size() * out + 1];
         nb::capsule owner(values, [](void* p) noexcept { delete[] static_cast<T*>(p); });
@@ -32,7 +32,7 @@ void def_batch(nb::module_& m, const char* name, Batch batch, const char* argume
         }();
         Extents extents = extents_of(from, from.ndim() - (in > 1 ? 1 : 0));
         if (out > 1) extents.push_back(out);
-        const NewArray<T> results(values, extents.size(), extents.data(), owner);
+        NewArray<T> results(values, extents.size(), extents.data(), owner);
         if constexpr (std::is_same_v<decltype(outcome), const Status>) {
           unwrap(outcome);
           return results;

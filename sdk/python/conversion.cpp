@@ -39,7 +39,7 @@ ExplanationParts numbers_of(const Explanation& e) {
 }  // namespace
 
 void bind_conversion(nb::module_& m) {
-  nb::class_<LightSetup>(m, "LightSetup", "What is known of a light besides the quantity.");
+  const nb::class_<LightSetup> setup_type(m, "LightSetup", "What is known of a light besides the quantity.");
   m.def(
       "light_setup",
       [](const std::optional<ShapeNumbers>& shape, bool two_sided, std::string_view spot_flux, std::string_view spot_falloff,
@@ -60,7 +60,7 @@ void bind_conversion(nb::module_& m) {
       nb::arg("shape").none(), nb::arg("two_sided"), nb::arg("spot_flux"), nb::arg("spot_falloff"), nb::arg("given_distance_m").none(),
       nb::arg("wanted_distance_m").none(), nb::arg("efficacy_lm_W").none(), nb::arg("meter_k"), nb::arg("meter_c"));
 
-  nb::class_<Conversion>(m, "Conversion", "One conversion, prepared for any number of values.");
+  const nb::class_<Conversion> conversion_type(m, "Conversion", "One conversion, prepared for any number of values.");
   m.def(
       "conversion",
       [](const NamedUnit& given, const NamedUnit& wanted, const LightSetup& setup) {

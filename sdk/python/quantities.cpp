@@ -53,6 +53,7 @@ void bind_quantities(nb::module_& m) {
       "dimensions",
       [] {
         std::vector<std::tuple<std::string_view, std::string_view>> all;
+        all.reserve(dimension_count);
         for (int i = 0; i < dimension_count; ++i)
           all.emplace_back(name_of(static_cast<Dimension>(i)), si_unit_of(static_cast<Dimension>(i)));
         return all;

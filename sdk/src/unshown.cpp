@@ -31,6 +31,16 @@ double alpha_of(const Material& material) {
   return model != nullptr ? model->roughness * model->roughness : 0.25;
 }
 
+// Of a conductor, which has none, white.
+Rgb base_colour_of(const Material& material) {
+  if (const auto* model = std::get_if<Lambert>(&material.model)) return model->base_colour;
+  if (const auto* model = std::get_if<Principled>(&material.model)) return model->base_colour;
+  if (const auto* model = std::get_if<Standard>(&material.model)) return model->base_colour;
+  if (const auto* model = std::get_if<SpecularGlossiness>(&material.model)) return model->diffuse;
+  const MetalRough* const model = metal_rough_of(material);
+  return model != nullptr ? model->base_colour : Rgb{1, 1, 1};
+}
+
 std::string text_of(const Rgb& colour) { return fmt::format("({:.3g}, {:.3g}, {:.3g})", colour.x, colour.y, colour.z); }
 
 // The extension's coat: F0 .04, over a layer that loses what the coat reflects.
@@ -98,7 +108,7 @@ std::vector<Loss> unshown_losses(const Material& material) {
   // In the order of unshown_of().
   std::vector<std::string> amounts;
   if (material.blended) amounts.push_back(fmt::format("authored to cover {:.3g} of it", material.base_alpha));
-  if (lobes.unlit) amounts.emplace_back();
+  if (lobes.unlit) amounts.push_back(text_of(base_colour_of(material)));
   if (lobes.clearcoat) amounts.push_back(amount_of(*lobes.clearcoat));
   if (lobes.sheen) amounts.push_back(amount_of(*lobes.sheen));
   if (lobes.transmission) amounts.push_back(amount_of(*lobes.transmission, f0));
@@ -111,8 +121,7 @@ std::vector<Loss> unshown_losses(const Material& material) {
 
   std::vector<Loss> losses;
   for (const Unshown& unshown : unshown_of(material)) {
-    const std::string& amount = amounts[losses.size()];
-    losses.push_back({unshown.what, amount.empty() ? unshown.effect : std::string(unshown.effect) + ": " + amount});
+    losses.push_back({unshown.what, std::string(unshown.effect) + ": " + amounts[losses.size()]});
   }
   return losses;
 }

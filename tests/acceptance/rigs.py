@@ -27,6 +27,14 @@ def towards(direction):
     return [c / norm for c in q]
 
 
+def write_pfm(path, rows):
+    """Rows of pixels (three numbers each), the upper one first."""
+    with open(path, "wb") as out:
+        out.write(b"PF\n%d %d\n-1.0\n" % (len(rows[0]), len(rows)))
+        for row in reversed(rows):  # PFM starts with the bottom row
+            out.write(struct.pack("<%df" % (3 * len(row)), *(c for pixel in row for c in pixel)))
+
+
 def blob_environment(path, direction, width=64, height=32):
     """A sky with one soft bright spot, as a PFM file; centre column +Z, +X at a quarter of the width, +Y at the top."""
     length = math.sqrt(sum(c * c for c in direction))
@@ -39,12 +47,9 @@ def blob_environment(path, direction, width=64, height=32):
             longitude = math.pi - 2 * math.pi * (column + 0.5) / width
             d = (math.sin(theta) * math.sin(longitude), math.cos(theta), math.sin(theta) * math.cos(longitude))
             blob = 40 * math.exp(30 * (sum(a * b for a, b in zip(d, towards_blob)) - 1))
-            line += [0.5 + blob, 0.7 + 0.8 * blob, 1.0 + 0.6 * blob]
+            line.append((0.5 + blob, 0.7 + 0.8 * blob, 1.0 + 0.6 * blob))
         rows.append(line)
-    with open(path, "wb") as out:
-        out.write(b"PF\n%d %d\n-1.0\n" % (width, height))
-        for line in reversed(rows):  # PFM starts with the bottom row
-            out.write(struct.pack("<%df" % len(line), *line))
+    write_pfm(path, rows)
 
 
 CUBE = {
@@ -75,7 +80,18 @@ PLACES = {
 SUN_DIRECTIONS = {"near": (0.1, -1.0, 0.1), "medium": (-0.7, -1.0, -0.3), "grazing": (1.0, -0.12, 0.2)}
 KINDS = [*SHAPES, "directional", "sun", "environment"]
 # Those that Mitsuba shows within .2 % only of the exporter's plugins, or not as what they are.
-MORE_SHAPES = {"line": {"type": "line", "length": "0.8 m"}, "photometric": {"type": "photometric", "file": "lamp.ies"}}
+MORE_SHAPES = {
+    "line": {"type": "line", "length": "0.8 m"},
+    "photometric": {"type": "photometric", "file": "lamp.ies"},
+    "rect-textured": SHAPES["rect"],
+    "tube-flat": dict(SHAPES["capsule"], caps="flat"),
+    "tube-open": dict(SHAPES["capsule"], caps="none"),
+}
+
+
+def emission_texture(path):
+    """Brighter to the right, redder upwards."""
+    write_pfm(path, [[(0.2 + 0.8 * (x + 1) / 8, 0.3 + 0.5 * (y + 1) / 6, 0.4 + 0.3 * ((x + y) % 2)) for x in range(8)] for y in range(6)])
 
 
 def photometric_file(path):
@@ -104,6 +120,9 @@ def light(kind, place, folder):
              "translation": list(position), "rotation": towards(direction)}
     if kind == "rect-two-sided":
         entry["two_sided"] = True
+    if kind == "rect-textured":
+        emission_texture(pathlib.Path(folder) / "emission.pfm")
+        entry["emission"]["texture"] = "emission.pfm"
     return entry
 
 

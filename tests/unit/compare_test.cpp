@@ -152,24 +152,28 @@ TEST(Compare, ChiSquaredIsOneForNoise) {
 }
 
 // chi2_expected against noise that is drawn: its parts' shares of sigma^2 are those of the noise's mean variance, so that (K - 3)/(K - 1)
-// alone is left where our variance is known and most of all, half of that where as much again is a bound that holds no noise. The channels
+// alone is left where our variance is known and most of all, half of that where as much again is a bound that holds no noise, of the
+// reference's sums or ours. The channels
 // of a pixel share their noise: 128 x 128 squares of normal deviates, standard deviation sqrt(2)/128 = .011 of their mean.
 TEST(Compare, ChiSquaredExpectedIsWhatDrawnNoiseGives) {
   constexpr int seeds = 16;
   constexpr double ours_known = 13.0 / 15, four_deviations = .045;
   struct Case {
-    double reference_noise, our_noise;  // relative standard deviations of a run, of our value
+    double reference_noise, our_noise, our_bound;  // relative standard deviations of a run, of our value; what our error may be
     double expected;
   };
   const double bound = 3e-5 * std::sqrt(double{seeds});
-  for (const auto& [reference_noise, our_noise, expected] :
-       {Case{.02, 0, 1}, Case{.02, .05, ours_known}, Case{bound, 0, .5 * ours_known}, Case{bound / 30, 0, 0}}) {
+  for (const auto& [reference_noise, our_noise, our_bound, expected] :
+       {Case{.02, 0, 0, 1}, Case{.02, .05, 0, ours_known}, Case{bound, 0, 0, .5 * ours_known}, Case{bound / 30, 0, 0, 0},
+        Case{.02, 0, .005, .5 * ours_known}, Case{.02, .05, .05, .5 * ours_known}}) {
     const Picture truth = flat(128, 128, 10);
     const Picture reference = noisy_reference(truth, reference_noise, seeds, 3);
     std::mt19937_64 random(8);
     Picture ours = our_noise > 0 ? runs_of(truth, 1, gaussian(our_noise), random).front() : truth;
     auto& variance = ours.add("variance", 3).pixels;
-    std::fill(variance.begin(), variance.end(), static_cast<float>(std::pow(10 * our_noise, 2)));
+    std::fill(variance.begin(), variance.end(), static_cast<float>(std::pow(10 * our_noise, 2) + std::pow(10 * our_bound, 2)));
+    auto& supposed = ours.add("variance_bound", 3).pixels;
+    std::fill(supposed.begin(), supposed.end(), static_cast<float>(std::pow(10 * our_bound, 2)));
     const Result<Comparison> c = compare(ours, reference, {});
     ASSERT_TRUE(c.ok());
     EXPECT_NEAR(c->chi2_per_pixel, c->chi2_expected, four_deviations * std::max(c->chi2_expected, .1)) << reference_noise << our_noise;

@@ -50,7 +50,8 @@ TEST(Unshown, FilmReflectanceBoundsTheSumOfRays) {
 
 TEST(Unshown, EveryLobeHasItsNumber) {
   Material m;
-  m.model = MetalRough{{1, 1, 1}, 0, 0.5, 1.5};
+  m.model = MetalRough{{0.5, 0.25, 1}, 0, 0.5, 1.5};
+  m.lobes.unlit = true;
   m.blended = true;
   m.base_alpha = 0.25;
   m.lobes.clearcoat = Clearcoat{};
@@ -76,7 +77,8 @@ TEST(Unshown, EveryLobeHasItsNumber) {
   const std::vector<Unshown> named = unshown_of(m);
   ASSERT_EQ(losses.size(), named.size());
   const char* const numbers[] = {
-      "0.25 of it",                                   // base_alpha
+      "0.25 of it",  // base_alpha
+      "its base colour: (0.5, 0.25, 1)",
       "0.02 of light from ahead, 0.0429 of a white",  // .5 x .04, .5 x (.04 + .96 / 21)
       "(0.2, 0.3, 0.4)",
       "0.48 of light from ahead",  // .5 x (1 - .04)

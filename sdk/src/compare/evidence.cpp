@@ -98,6 +98,7 @@ Result<Evidence> gather(const Picture& ours, const Picture& reference, const std
   const Layer* their_values = layer_of_size(reference, layer_name, 3);
   const Layer* their_variance = layer_of_size(reference, variance_name, 3);
   const Layer* our_variance = layer_of_size(ours, variance_name, 3);
+  const Layer* our_bound = layer_of_size(ours, light.empty() ? "variance_bound" : "light_variance_bound." + layer_safe(light), 3);
   if (!their_values || !their_variance || (!our_values && light.empty())) {
     const bool in_ours = their_values && their_variance;
     return Error{"LAYER_MISSING",
@@ -107,7 +108,7 @@ Result<Evidence> gather(const Picture& ours, const Picture& reference, const std
                  {},
                  {}};
   }
-  for (const Layer* layer : {our_values, our_variance}) {
+  for (const Layer* layer : {our_values, our_variance, our_bound}) {
     if (!layer) continue;
     if (Status status = find_bad_pixel(*layer, ours, "our picture"); !status) return status.error();
   }
@@ -129,6 +130,7 @@ Result<Evidence> gather(const Picture& ours, const Picture& reference, const std
   const double mean = total / static_cast<double>(3 * count);
   e.variance.resize(3 * count);
   e.scatter.resize(3 * count);
+  e.bound.resize(3 * count);
   double counted = 0;
   for (std::size_t i = 0; i < 3 * count; ++i) {
     const double rounding = float_accumulation * e.reference[i];
@@ -136,8 +138,11 @@ Result<Evidence> gather(const Picture& ours, const Picture& reference, const std
     // Where no sample of the reference saw light its variance is not zero but unknown. Were light of the picture's mean seen with the
     // probability that gives ours, K trials would have the variance |ours| mean / K; a seed is at least one trial.
     const bool unseen = e.reference[i] == 0 && theirs == 0;
-    e.variance[i] = theirs + own + rounding * rounding + (unseen ? std::abs(e.ours[i]) * mean / e.seeds : 0);
+    const double unknown = unseen ? std::abs(e.ours[i]) * mean / e.seeds : 0;
+    const double supposed = our_bound ? std::clamp(static_cast<double>(our_bound->pixels[i]), 0.0, own) : 0;
+    e.variance[i] = theirs + own + rounding * rounding + unknown;
     e.scatter[i] = theirs;
+    e.bound[i] = rounding * rounding + unknown + supposed;
     if (!(e.variance[i] > 0)) continue;
     e.own_noise += own / e.variance[i];
     counted += 1;

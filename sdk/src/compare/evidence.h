@@ -21,6 +21,7 @@ struct Evidence {
   std::vector<double> ours, reference;
   std::vector<double> variance;  // sigma^2 of ours - reference
   std::vector<double> scatter;   // the part of it that the reference's seeds measured
+  std::vector<double> bound;     // the part of it that holds no noise: what errors may be, or what is not known
   double own_noise = 0;          // relative to the picture's: mean of our variance / sigma^2
   std::vector<double> around;    // mean sigma^2 of the 24 pixels around, and a floor: independent of the pixel's own noise
   std::vector<bool> emitter;     // per pixel: touches a visible emitter

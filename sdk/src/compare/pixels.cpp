@@ -21,7 +21,7 @@ PixelStatistics pixel_statistics(const Evidence& e) {
       chi2 += d * d / v;
       // E[D^2 / sigma^2] where a part f of sigma^2 is noise and the rest a bound, and a part b of f was measured by K seeds, ours being
       // known: f (1 + 2 b^2 / (K - 3)) to first order in 1/K, which with the factor below is 1 for b = 1 and f (K - 3)/(K - 1) for small b.
-      const double f = std::max(0.0, 1 - std::pow(float_accumulation * e.reference[i], 2) / v), b = e.scatter[i] / v;
+      const double f = std::max(0.0, 1 - e.bound[i] / v), b = e.scatter[i] / v;
       noisy += f * (1 + 2.0 / (e.seeds - 3) * b * b);
       squares += d * d;
       noise += v;

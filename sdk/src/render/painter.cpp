@@ -47,7 +47,8 @@ LightPainter::LightPainter(const Stage& stage, const PinholeCamera& camera, cons
       lighting_(stage, camera),
       shadows_(!light.delta && light.analytic && stage.can_be_blocked(light)),
       value_(std::size_t{options.width} * options.height),
-      variance_(value_.size()) {
+      variance_(value_.size()),
+      bound_(value_.size()) {
   tolerance_.relative = std::clamp(shading_share * options.expected_noise, 1e-7, 1e-3);
   tolerance_.absolute = tolerance_.relative * dark_share * typical_luminance();
 }
@@ -179,7 +180,7 @@ LightPainter::Shadowed LightPainter::by_ratio(std::uint32_t x, std::uint32_t y, 
   const Deviating ratio = sampled(x, y, around, centre, counts).ratio(around.beta);
   const Measured seen = exact(x, y, 0, centre, counts), lit = exact(x, y, 1, centre, counts);
   const Rgb light = lit.value - seen.value;
-  return {{seen.value + light * ratio.mean, lit.variance, lit.bound}, squared(light) * ratio.variance};
+  return {{seen.value + light * ratio.mean, lit.variance, lit.bound, lit.supposed}, squared(light) * ratio.variance};
 }
 
 void LightPainter::paint_row(std::uint32_t row, RayCounts& counts) {
@@ -195,7 +196,9 @@ void LightPainter::paint_row(std::uint32_t row, RayCounts& counts) {
     value_[pixel] = shadowed.all.value;
     variance_[pixel] = shadowed.all.variance;
     // What shading may be off by is a bound, not a deviation: a tenth of it is a choice (sdk/docs/rendering.md), not a measurement.
-    variance_[pixel] += Rgb{1, 1, 1} * std::pow(0.1 * shadowed.all.bound, 2);
+    const Rgb shading = Rgb{1, 1, 1} * std::pow(0.1 * shadowed.all.bound, 2);
+    variance_[pixel] += shading;
+    bound_[pixel] = shadowed.all.supposed + shading;
     if (shadows_ && around.mixed && around.beta > 0 && regions == nullptr) {
       mixed_variance_[pixel] = shadowed.shadow_variance;
       is_mixed_[pixel] = 1;

@@ -35,11 +35,14 @@ class LightPainter {
   bool run(RowRunner& rows);
   const std::vector<Rgb>& value() const { return value_; }
   const std::vector<Rgb>& variance() const { return variance_; }
+  // The part of the variance that is no deviation but what an error may be: mostly far more than it is.
+  const std::vector<Rgb>& bound() const { return bound_; }
 
  private:
   struct Measured {
     Rgb value, variance;
     double bound = 0;  // of the shading's own error, beside the variance
+    Rgb supposed;      // the part of the variance that a quadrature's error may be
   };
   // A square part of the picture, its sides in pixels.
   struct Cell {
@@ -118,7 +121,7 @@ class LightPainter {
   std::vector<Rgb> black_, slope_;    // unblocked light at the centres of smooth pixels, as Response
   std::vector<float> centre_bound_;   // what its error may be
   std::vector<std::uint8_t> known_;   // where they hold something
-  std::vector<Rgb> value_, variance_;
+  std::vector<Rgb> value_, variance_, bound_;
   std::vector<Rgb> mixed_variance_;     // of the samples in smooth pixels whose shadows are mixed
   std::vector<std::uint8_t> is_mixed_;  // which those are
 };

@@ -104,7 +104,7 @@ LightPainter::Measured LightPainter::cubature(const Cell& cell, double beta, int
   const Reflected coarse = gauss_legendre(cell, beta, 2, counts), fine = gauss_legendre(cell, beta, 3, counts);
   const Rgb error = (fine.value - coarse.value) / 4.0;
   const double allowed = std::max(tolerance_.relative * largest(fine.value), tolerance_.absolute);
-  if (halvings == 0 || largest(error) <= allowed) return {fine.value, squared(error), fine.bound};
+  if (halvings == 0 || largest(error) <= allowed) return {fine.value, squared(error), fine.bound, squared(error)};
   Measured out;
   for (int quarter = 0; quarter < 4; ++quarter) {
     const double half = cell.side / 2;
@@ -112,6 +112,7 @@ LightPainter::Measured LightPainter::cubature(const Cell& cell, double beta, int
     const Measured part = cubature({cell.x + column * half, cell.y + row * half, half}, beta, halvings - 1, counts);
     out.value += part.value / 4.0;
     out.variance += part.variance / 16.0;
+    out.supposed += part.supposed / 16.0;
     out.bound += part.bound / 4;
   }
   return out;
@@ -131,7 +132,7 @@ LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, do
     return over_places(x, y, [&](double at_x, double at_y) { return at(at_x, at_y, beta, counts); });
   }
   const Ray ray = camera_.through(x + 0.5, y + 0.5);
-  Measured out{lighting_.emitted(light_, centre, ray), {}, 0};
+  Measured out{lighting_.emitted(light_, centre, ray), {}, 0, {}};
   if (beta <= 0 || thing == nullptr || thing->paint == nullptr || !light_.analytic) return out;
   const bool cheap = light_.delta || std::holds_alternative<Lambert>(thing->paint->material.model);
   // With g = |f_xx / f| the next terms are of the order g^2: g^2 / 340 here, g^2 / 4320 for the rule of 2 x 2.
@@ -147,7 +148,7 @@ LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, do
   const Cell whole{static_cast<double>(x), static_cast<double>(y), 1};
   if (bend && bend->relative > steep) return cubature(whole, beta, cheap ? halvings_for_points : halvings_for_areas, counts);
   const Reflected mean = gauss_legendre(whole, beta, 2, counts);
-  return {mean.value, {}, mean.bound};
+  return {mean.value, {}, mean.bound, {}};
 }
 
 LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, const Regions& regions, double beta, RayCounts& counts) const {
@@ -184,7 +185,8 @@ LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, con
       out.variance[c] += region.weight * region.weight * spread;
     }
   }
-  out.variance += squared((high - low) * regions.area_error);
+  out.supposed = squared((high - low) * regions.area_error);
+  out.variance += out.supposed;
   return out;
 }
 

@@ -58,8 +58,13 @@ void add_surface_layers(const Stage& stage, const PinholeCamera& camera, const S
   for (Layer* layer : {&object, &emitter, &depth, &normal, &albedo}) *picture.find(layer->name) = std::move(*layer);
 }
 
-void add_light_layers(const LightPainter& painter, const std::string& name, std::vector<Rgb>& sum, std::vector<Rgb>& variance,
-                      Picture& picture) {
+// Of all lights.
+struct Sums {
+  explicit Sums(std::size_t pixels) : value(pixels), variance(pixels), bound(pixels) {}
+  std::vector<Rgb> value, variance, bound;
+};
+
+void add_light_layers(const LightPainter& painter, const std::string& name, Sums& sums, Picture& picture) {
   const auto store = [&](const std::string& layer_name, const std::vector<Rgb>& values, std::vector<Rgb>& total) {
     Layer& layer = picture.add(layer_name, 3);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -67,8 +72,10 @@ void add_light_layers(const LightPainter& painter, const std::string& name, std:
       total[i] += values[i];
     }
   };
-  store(name, painter.value(), sum);
-  store("light_variance" + name.substr(name.find('.')), painter.variance(), variance);
+  const std::string suffix = name.substr(name.find('.'));
+  store(name, painter.value(), sums.value);
+  store("light_variance" + suffix, painter.variance(), sums.variance);
+  store("light_variance_bound" + suffix, painter.bound(), sums.bound);
 }
 
 void copy(const std::vector<Rgb>& values, Layer& layer) {
@@ -101,16 +108,18 @@ Result<Rendered> render(const Scene& scene, const RenderOptions& options, Progre
   if (eye.ev100) picture.numbers["etendue:ev100"] = *eye.ev100;
   picture.add("", 3);
   picture.add("variance", 3);
+  picture.add("variance_bound", 3);
   const std::size_t pixels = std::size_t{options.width} * options.height;
-  std::vector<Rgb> sum(pixels), variance(pixels);
+  Sums sums(pixels);
   for (const StageLight& light : stage.lights()) {
     LightPainter painter(stage, camera, survey, light,
                          {options.width, options.height, options.expected_noise, options.seed, options.shadows, options.shadow_samples});
     if (!painter.run(rows)) return cancelled;
-    add_light_layers(painter, light.layer, sum, variance, picture);
+    add_light_layers(painter, light.layer, sums, picture);
   }
-  copy(sum, *picture.find(""));
-  copy(variance, *picture.find("variance"));
+  copy(sums.value, *picture.find(""));
+  copy(sums.variance, *picture.find("variance"));
+  copy(sums.bound, *picture.find("variance_bound"));
   add_surface_layers(stage, camera, survey, picture);
 
   out.stats.primary_rays = rows.counts().primary;
