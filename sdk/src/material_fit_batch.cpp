@@ -20,7 +20,7 @@ namespace {
 
 constexpr float largest_k = static_cast<float>(largest_dielectric_f0), core_k = static_cast<float>(largest_dielectric_f0 / 4);
 // The grid, and how often the valley of the most promising cell and of the next one is narrowed down.
-constexpr int cells = 12, refinements = 4, second_refinements = 3;
+constexpr int cells = 10, refinements = 3, second_refinements = 2;
 
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
@@ -70,8 +70,9 @@ class Profile {
     }
   }
 
-  // Where no base colour is at a bound, k is the mean of f - d m / s. From there two of Newton's steps: half the derivative in k,
-  // 3 k - sum f + m sum b, has straight pieces, and a step within one ends at its root.
+  // Where no base colour is at a bound, k is the mean of f - d m / s. From there Newton's steps: half the derivative in k,
+  // 3 k - sum f + m sum b, has straight pieces, and a step within one ends at its root. On the grid, which only shows where to look, one.
+  template <int steps = 2>
   HWY_INLINE Point at(const Metal& metal) const {
     const V zero = hn::Zero(D()), one = set(1), m = metal.m, s = metal.s;
     const V across = hn::Mul(s, metal.per_n), t = hn::Mul(m, metal.per_n);
@@ -81,7 +82,7 @@ class Profile {
     if (!core_) {
       const V highest = hn::Mul(set(largest_k), s), mt = hn::Mul(m, t);
       k = held_within(zero, hn::NegMulAdd(hn::Mul(m, metal.per_s), d_mean_, f_mean_), highest);
-      for (int step = 0; step < 2; ++step) {
+      for (int step = 0; step < steps; ++step) {
         V sum = zero, curvature = set(3);
         for (const V& at_zero : free) {
           const V wanted = hn::NegMulAdd(t, k, at_zero), got = held_within(zero, wanted, one);
@@ -104,26 +105,68 @@ class Profile {
     return {m, k, residual, hn::NegMulAdd(hn::Mul(k, metal.per_s), specular_sum, slope)};
   }
 
-  // Where the residual is least without any bound, and what it is there: FreeOptimum of material_fit.cpp with tan(t) for the half angle,
-  // t = atan2(2 X, D - F) / 2.
+  // Where the residual is least without any bound, k that of the mean, and what it is there.
   HWY_INLINE V free_metal(V* least) const {
-    V dd = hn::Zero(D()), df = dd, ff = dd;
+    const Squares squares = squares_about(d_mean_, f_mean_);
+    const V m = squares.valley();
+    *least = squares.residual(m);
+    return m;
+  }
+  // Where it is least if k = 0 and no base colour is at a bound.
+  HWY_INLINE V metal_without_dielectric() const { return squares_about(hn::Zero(D()), hn::Zero(D())).valley(); }
+
+  // If k is at its bound kappa s and no base colour at one, what is left of a channel is (d m - f s + kappa s^2)^2 / n. Of the mean channel
+  // it vanishes at a root of kappa m^2 + (d + f - 2 kappa) m + kappa - f: nearly grey pairs have a valley there, narrower than a cell.
+  HWY_INLINE V metal_at_bound() const {
+    const V kappa = bound(), excess = hn::Max(hn::Sub(f_mean_, kappa), hn::Zero(D()));
+    const V half = hn::NegMulAdd(set(0.5f), hn::Add(d_mean_, f_mean_), kappa);  // minus half the coefficient of m
+    const V root = hn::Sqrt(hn::MulAdd(half, half, hn::Mul(kappa, excess)));
+    return held_within(hn::Zero(D()), hn::Div(excess, hn::Max(hn::Sub(root, half), set(tiny))), set(1));
+  }
+  // One step of Gauss and Newton from there: the slope over the sum of the squared derivatives of the three residuals.
+  HWY_INLINE V towards_valley_at_bound(const Point& from) const {
+    const Metal metal = metal_of(from.m);
+    const V kappa = bound(), turn = hn::Mul(hn::Sub(metal.m, metal.s), metal.per_n), ks = hn::Mul(kappa, metal.s);
+    V curvature = hn::Zero(D());
     for (int c = 0; c < 3; ++c) {
-      const V a = hn::Sub(d_[c], d_mean_), b = hn::Sub(f_[c], f_mean_);
-      dd = hn::MulAdd(a, a, dd), df = hn::MulAdd(a, b, df), ff = hn::MulAdd(b, b, ff);
+      const V left = hn::MulAdd(d_[c], metal.m, hn::Mul(metal.s, hn::Sub(ks, f_[c])));
+      const V derivative = hn::NegMulAdd(left, turn, hn::NegMulAdd(set(2), ks, hn::Add(d_[c], f_[c])));
+      curvature = hn::MulAdd(derivative, derivative, curvature);
     }
-    const V twice = hn::Add(df, df), p = hn::Sub(dd, ff), h = hn::Sqrt(hn::MulAdd(p, p, hn::Mul(twice, twice)));
-    // tan t = 2X / (h + p) = (h - p) / 2X, whichever does not cancel.
-    const M positive = hn::Gt(p, hn::Zero(D()));
-    const V up = hn::IfThenElse(positive, twice, hn::Sub(h, p)), across = hn::IfThenElse(positive, hn::Add(h, p), twice);
-    const V m = hn::Div(up, hn::Max(hn::Add(up, across), set(1e-30f)));
-    const V inside = held_within(hn::Zero(D()), m, set(1)), s = hn::Sub(set(1), inside);
-    const V quotient = hn::MulAdd(dd, hn::Mul(inside, inside), hn::MulSub(ff, hn::Mul(s, s), hn::Mul(twice, hn::Mul(inside, s))));
-    *least = hn::Div(quotient, hn::MulAdd(s, s, hn::Mul(inside, inside)));
-    return hn::IfThenElse(hn::Gt(df, hn::Zero(D())), inside, hn::IfThenElseZero(hn::Lt(p, hn::Zero(D())), set(1)));
+    const V step = hn::Div(from.slope, hn::Max(hn::Mul(curvature, metal.per_n), set(tiny)));
+    return held_within(hn::Zero(D()), hn::Sub(from.m, step), set(1));
   }
 
  private:
+  // FreeOptimum of material_fit.cpp: sums of squares and products of d and f, the residual of the best plain multiple of (1 - m, m) to each
+  // channel as a quotient of m, and the valley of that with tan(t) for the half angle, t = atan2(2 X, D - F) / 2.
+  struct Squares {
+    V dd, df, ff;
+
+    HWY_INLINE V valley() const {
+      const V twice = hn::Add(df, df), p = hn::Sub(dd, ff), h = hn::Sqrt(hn::MulAdd(p, p, hn::Mul(twice, twice)));
+      // tan t = 2X / (h + p) = (h - p) / 2X, whichever does not cancel.
+      const M positive = hn::Gt(p, hn::Zero(D()));
+      const V up = hn::IfThenElse(positive, twice, hn::Sub(h, p)), across = hn::IfThenElse(positive, hn::Add(h, p), twice);
+      const V m = held_within(hn::Zero(D()), hn::Div(up, hn::Max(hn::Add(up, across), set(1e-30f))), set(1));
+      return hn::IfThenElse(hn::Gt(df, hn::Zero(D())), m, hn::IfThenElseZero(hn::Lt(p, hn::Zero(D())), set(1)));
+    }
+    HWY_INLINE V residual(V m) const {
+      const V s = hn::Sub(set(1), m);
+      const V quotient = hn::MulAdd(dd, hn::Mul(m, m), hn::MulSub(ff, hn::Mul(s, s), hn::Mul(hn::Add(df, df), hn::Mul(m, s))));
+      return hn::Div(quotient, hn::MulAdd(s, s, hn::Mul(m, m)));
+    }
+  };
+  HWY_INLINE Squares squares_about(V d, V f) const {
+    V dd = hn::Zero(D()), df = dd, ff = dd;
+    for (int c = 0; c < 3; ++c) {
+      const V a = hn::Sub(d_[c], d), b = hn::Sub(f_[c], f);
+      dd = hn::MulAdd(a, a, dd), df = hn::MulAdd(a, b, df), ff = hn::MulAdd(b, b, ff);
+    }
+    return {dd, df, ff};
+  }
+  HWY_INLINE V bound() const { return set(core_ ? core_k : largest_k); }
+
   V d_[3], f_[3], f_sum_, d_mean_, f_mean_;
   bool core_;
 };
@@ -184,11 +227,15 @@ HWY_INLINE Point optimum(const Profile& profile, bool core) {
     best = choose(hn::AndNot(done, hn::And(lanes, hn::Lt(point.residual, best.residual))), point, best);
   };
   const M every = hn::Ge(set(1), zero);
+  if (!core) consider(profile.at(metal_of(profile.metal_without_dielectric())), every);
+  const Point at_bound = profile.at(metal_of(profile.metal_at_bound()));
+  consider(at_bound, every);
+  consider(profile.at(metal_of(profile.towards_valley_at_bound(at_bound))), every);
   const V unlikely = set(1e30f);
   Cell deepest{zero, first.residual, last.residual, first.slope, last.slope, unlikely}, second = deepest;
   Point before = first;
   for (int i = 1; i <= cells; ++i) {
-    const Point here = i == cells ? last : profile.at(metal_of(i));
+    const Point here = i == cells ? last : profile.at<1>(metal_of(i));
     consider(here, every);
     const Valley valley = valley_between(before, here, set(1.0f / cells), set(cells));
     const Cell cell{before.m,     before.residual, here.residual,

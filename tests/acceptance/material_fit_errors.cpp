@@ -1,5 +1,5 @@
-// Excess of the rms of Disney parameters over the global optimum's, a line of JSON a row. Arguments: the number of random pairs of colours,
-// then glTF files whose specular-glossiness texels are taken, each distinct pair once.
+// Excess of the rms of Disney parameters over the global optimum's, a line of JSON a row. Arguments: `floats` or `codes`, the number of
+// random pairs of colours, then glTF files whose specular-glossiness texels are taken, each distinct pair once.
 #include "etendue/material.h"
 #include "etendue/material_codes.h"
 #include "etendue/material_fit_batch.h"
@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -27,6 +28,7 @@ using Json = nlohmann::ordered_json;
 
 struct Pairs {
   std::vector<Vec3f> diffuse, f0;
+  std::vector<std::size_t> texels;  // that have these colours
   std::size_t size() const { return diffuse.size(); }
   ColourPair operator[](std::size_t i) const { return {vec_cast<double>(diffuse[i]), vec_cast<double>(f0[i])}; }
 };
@@ -52,11 +54,11 @@ void measure_floats(const std::string& part, const Pairs& pairs, DielectricF0 di
     hwy::SetSupportedTargetsForTest(target);
     if (!fit_disney(pairs.diffuse, pairs.f0, {base, metal, reflectance}, dielectric)) std::exit(1);
     double worst = 0;
-    std::size_t above = 0;
+    std::size_t above = 0, texels = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const double excess = rms(squared_difference({vec_cast<double>(base[i]), metal[i], reflectance[i]}, pairs[i])) - least[i];
       worst = std::max(worst, excess);
-      above += excess > 1e-4 ? 1 : 0;
+      if (excess > 1e-4) ++above, texels += pairs.texels[i];
     }
     std::cout << Json{{"part", part},
                       {"what", "float"},
@@ -64,7 +66,9 @@ void measure_floats(const std::string& part, const Pairs& pairs, DielectricF0 di
                       {"set", hwy::TargetName(target)},
                       {"pairs", pairs.size()},
                       {"worst", worst},
-                      {"above", above}}
+                      {"above", above},
+                      {"texels", std::accumulate(pairs.texels.begin(), pairs.texels.end(), std::size_t{0})},
+                      {"texels_above", texels}}
               << std::endl;
   }
   hwy::SetSupportedTargetsForTest(0);
@@ -117,35 +121,44 @@ void add_texels(const Scene& scene, const Material& material, const SpecularGlos
   }
 }
 
-void measure_file(const std::string& file) {
+Pairs pairs_of(const std::string& file) {
   ImportOptions options;
   options.tolerant = true;
   const auto importer = make_gltf_importer();
   const Result<Imported> imported = importer->read(file, options);
   if (!imported) {
     std::cerr << to_string(to_diagnostic(imported.error())) << '\n';
-    return;
+    return {};
   }
   std::vector<std::array<float, 6>> texels;
   for (const Material& material : imported->scene.materials)
     if (const auto* factors = std::get_if<SpecularGlossiness>(&material.model)) add_texels(imported->scene, material, *factors, texels);
   std::sort(texels.begin(), texels.end());
-  texels.erase(std::unique(texels.begin(), texels.end()), texels.end());
   Pairs pairs;
-  for (const auto& t : texels) pairs.diffuse.push_back({t[0], t[1], t[2]}), pairs.f0.push_back({t[3], t[4], t[5]});
-  if (pairs.size() == 0) return;
-  measure(file, pairs);
-  measure_codes(file, pairs);
+  for (std::size_t i = 0, next = 0; i < texels.size(); i = next) {
+    while (next < texels.size() && texels[next] == texels[i]) ++next;
+    const auto& t = texels[i];
+    pairs.diffuse.push_back({t[0], t[1], t[2]}), pairs.f0.push_back({t[3], t[4], t[5]}), pairs.texels.push_back(next - i);
+  }
+  return pairs;
+}
+
+Pairs random_pairs(std::size_t count) {
+  Draws draw(1);
+  Pairs pairs;
+  for (std::size_t i = 0; i < count; ++i)
+    pairs.diffuse.push_back(vec_cast<float>(draw.rgb(0, 1))), pairs.f0.push_back(vec_cast<float>(draw.rgb(0, 1))),
+        pairs.texels.push_back(1);
+  return pairs;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000;
-  Draws draw(1);
-  Pairs pairs;
-  for (std::size_t i = 0; i < count; ++i)
-    pairs.diffuse.push_back(vec_cast<float>(draw.rgb(0, 1))), pairs.f0.push_back(vec_cast<float>(draw.rgb(0, 1)));
-  if (count > 0) measure("random", pairs);
-  for (int i = 2; i < argc; ++i) measure_file(argv[i]);
+  if (argc < 3) return 2;
+  const auto run = std::string(argv[1]) == "codes" ? measure_codes : measure;
+  const std::size_t count = std::strtoull(argv[2], nullptr, 10);
+  if (count > 0) run("random", random_pairs(count));
+  for (int i = 3; i < argc; ++i)
+    if (const Pairs pairs = pairs_of(argv[i]); pairs.size() > 0) run(argv[i], pairs);
 }

@@ -1,6 +1,7 @@
 // Disney parameters of two colours: ours in float and double beside CMinpack (where it is installed), a grid with golden section, and
 // Khronos' closed form, over random colours. Ratios are to ours in float; the error is the excess of the rms over the global optimum's.
 #include <fmt/format.h>
+#include <hwy/highway.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,12 @@ class Rows {
     in_floats();
     for (std::size_t i = 0; i < count; ++i) answers_[i] = {vec_cast<double>(base_[i]), metal_[i], reflectance_[i]};
     task.contender("etendue, float", Kind::ours, error(), in_floats);
+    for (const int64_t target : hwy::SupportedAndGeneratedTargets())
+      task.contender(fmt::format("  {}", hwy::TargetName(target)), Kind::ours, "", [in_floats, target] {
+        hwy::SetSupportedTargetsForTest(target);
+        in_floats();
+        hwy::SetSupportedTargetsForTest(0);
+      });
     const DisneyColours middle{{0.5, 0.5, 0.5}, 0.5, 0.5};
     add(task, "9-point grid and golden section, double", grid_and_golden_section);
 #ifdef ETENDUE_CMINPACK

@@ -57,12 +57,12 @@ void expect_near_optimum(const Pairs& pairs, DielectricF0 dielectric, double wor
   });
 }
 
-// One of 10000 may be above 1e-4 (tests/acceptance/materials counts them): more than 4 of 9999 come by chance once in 270.
+// One of 10000 may be above 1e-4. Of 400000 7 are: more than 2 of 9999 come by chance once in a thousand.
 TEST(MaterialFitBatch, RandomColours) {
   Draws draw(1);
   Pairs pairs;
   for (int i = 0; i < 9999; ++i) pairs.add(draw.rgb(0, 1), draw.rgb(0, 1));
-  for (const DielectricF0 dielectric : {DielectricF0::free, DielectricF0::core}) expect_near_optimum(pairs, dielectric, half_8_bit_step, 4);
+  for (const DielectricF0 dielectric : {DielectricF0::free, DielectricF0::core}) expect_near_optimum(pairs, dielectric, half_8_bit_step, 2);
 }
 
 // What came from Disney parameters has residual 0: the float's rounding alone is left, and what the preference of metal 0 and 1 costs.
@@ -84,19 +84,24 @@ TEST(MaterialFitBatch, ColoursThatHaveAnExactAnswer) {
   });
 }
 
-// Nearly grey pairs have valleys beside each other that are shallow: of these 1000 some 4 are above 1e-4, and more than 15 come by chance
-// once in 1e5. None is above half an 8-bit step.
+// Nearly grey pairs have narrow valleys where k is at its bound or 0. Of 24000 one is above 1e-4 (1.2e-4), of 12000 with an f0 around the
+// bound of .16 four (1.3e-4): more than 2 of 2000, or more than 5, come by chance once in a few thousand.
 TEST(MaterialFitBatch, GreyAndNearlyGreyColours) {
   Draws draw(3);
-  Pairs pairs;
+  Pairs pairs, bright;
   for (int i = 0; i < 2001; ++i) {
     const double grey = draw.within(0, 1), f0 = draw.within(0, 1), noise = i % 2 ? 0 : 0.01;
-    pairs.add(Rgb{grey, grey, grey} + draw.rgb(-noise, noise), Rgb{f0, f0, f0} + draw.rgb(-noise, noise));
+    const Rgb diffuse = Rgb{grey, grey, grey} + draw.rgb(-noise, noise), about_zero = draw.rgb(-noise, noise);
+    const double near_bound = draw.within(0.15, 0.25);
+    pairs.add(diffuse, Rgb{f0, f0, f0} + about_zero);
+    bright.add(diffuse, Rgb{near_bound, near_bound, near_bound} + about_zero);
   }
   pairs.add({0, 0, 0}, {0, 0, 0});
   pairs.add({1, 1, 1}, {1, 1, 1});
-  for (const DielectricF0 dielectric : {DielectricF0::free, DielectricF0::core})
-    expect_near_optimum(pairs, dielectric, half_8_bit_step, 15);
+  for (const DielectricF0 dielectric : {DielectricF0::free, DielectricF0::core}) {
+    expect_near_optimum(pairs, dielectric, half_8_bit_step, 2);
+    expect_near_optimum(bright, dielectric, half_8_bit_step, 5);
+  }
 }
 
 TEST(MaterialFitBatch, AnyInputGivesParametersWithinTheirRanges) {
