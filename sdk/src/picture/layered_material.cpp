@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <map>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -14,9 +13,8 @@
 #include "etendue/material_fit.h"
 #include "etendue/material_parameters.h"
 #include "etendue/normal_filter.h"
-#include "etendue/picture.h"
-#include "etendue/textured_surface.h"
 #include "etendue/unshown.h"
+#include "layer_lookup.h"
 #include "png_rows.h"
 
 namespace etendue {
@@ -29,51 +27,6 @@ constexpr double baked_ior = 7.0 / 3;
 constexpr double same_reflectance = 1e-9;
 
 Error invalid(std::string text) { return {"LAYERS_INVALID", std::move(text), {}, {}, {}}; }
-
-// The textures of all layers, each picture decoded once an encoding.
-class Pictures {
- public:
-  explicit Pictures(std::span<const ImageRef> images) : images_(images) {}
-
-  Status load(const std::optional<Texture>& texture) {
-    if (!texture) return Done{};
-    if (texture->image >= images_.size())
-      return invalid(fmt::format("expected one of {} images, found {}", images_.size(), texture->image));
-    const Key key{texture->image, texture->encoding};
-    if (decoded_.contains(key)) return Done{};
-    Result<DecodedImage> image = decode(images_[texture->image], texture->encoding);
-    if (!image) return image.error();
-    decoded_.emplace(key, std::move(*image));
-    return Done{};
-  }
-  const DecodedImage& of(const Texture& texture) const { return decoded_.at({texture.image, texture.encoding}); }
-  Rgba at(const std::optional<Texture>& texture, Vec2d uv) const { return texture ? sample(of(*texture), *texture, uv) : Rgba{1, 1, 1, 1}; }
-  std::uint64_t count() const { return decoded_.size(); }
-
- private:
-  using Key = std::pair<std::uint32_t, Encoding>;
-  std::span<const ImageRef> images_;
-  std::map<Key, DecodedImage> decoded_;
-};
-
-// Emission of a surface is its factor where it has no texture.
-LayerValue value_of(const Material& material, const Pictures& pictures, Vec2d uv) {
-  const auto at = [&](const std::optional<Texture>& texture) { return pictures.at(texture, uv); };
-  const Rgba base = at(material.base_colour_texture), metal_rough = at(material.metal_rough_texture);
-  const Rgba specular = at(material.specular_gloss_texture), emissive = at(material.emissive_texture);
-  LayerValue value;
-  value.surface = standard_of(
-      textured(material.model, {{base.r, base.g, base.b}, metal_rough.b, metal_rough.g, {specular.r, specular.g, specular.b}, specular.a}));
-  value.emissive = material.emissive * Rgb{emissive.r, emissive.g, emissive.b};
-  if (material.normal_map) {
-    const Rgba n = at(material.normal_map->texture);
-    const double scale = material.normal_map->scale;
-    const Vec3d direction{scale * (2 * n.r - 1), scale * (2 * n.g - 1), 2 * n.b - 1};
-    if (dot(direction, direction) > 0) value.normal = normalised(direction);
-  }
-  if (material.occlusion) value.occlusion = 1 + material.occlusion->strength * (at(material.occlusion->texture).r - 1);
-  return value;
-}
 
 double reflectance_factor(const SurfaceModel& model) { return standard_of(model).reflectance; }
 // Whether the reflectance of a dielectric is the same at every texel: the model's own number.
@@ -116,7 +69,7 @@ struct Output {
 
 class Baker {
  public:
-  Baker(const LayeredMaterial& material, const BakeOptions& options, const Pictures& pictures)
+  Baker(const LayeredMaterial& material, const BakeOptions& options, const LayerPictures& pictures)
       : material_(material), options_(options), pictures_(pictures), plan_(plan_of(material)), samples_(samples()) {}
 
   Result<BakedMaterial> bake() {
@@ -175,19 +128,28 @@ class Baker {
     return done;
   }
 
-  LayerValue value_at(Vec2d uv, std::vector<LayerValue>& values, std::vector<double>& masks) const {
+  // What one thread works with.
+  struct Desk {
+    explicit Desk(std::size_t layers) : values(layers), masks(layers) {}
+    std::vector<LayerValue> values;
+    std::vector<double> masks;
+    SurfaceFits fits;
+  };
+
+  LayerValue value_at(Vec2d uv, Desk& desk) const {
     for (std::size_t i = 0; i < material_.layers.size(); ++i) {
       const MaterialLayer& layer = material_.layers[i];
-      masks[i] = layer.opacity * pictures_.at(layer.mask, uv).r;
-      if (i == 0 || masks[i] > 0) values[i] = value_of(layer.material, pictures_, {uv.x * layer.uv_scale, uv.y * layer.uv_scale});
+      desk.masks[i] = layer.opacity * pictures_.at(layer.mask, uv).r;
+      if (i == 0 || desk.masks[i] > 0)
+        desk.values[i] = layer_value(layer.material, pictures_, {uv.x * layer.uv_scale, uv.y * layer.uv_scale}, desk.fits);
     }
-    return blended(values, masks, material_.normals, material_.blend);
+    return blended(desk.values, desk.masks, material_.normals, material_.blend);
   }
 
   // Roughness as filter_normals() has it: the root of the mean alpha^2, widened by what the mean normal lacks of 1.
-  LayerValue texel(std::uint32_t x, std::uint32_t y, std::vector<LayerValue>& values, std::vector<double>& masks) const {
+  LayerValue texel(std::uint32_t x, std::uint32_t y, Desk& desk) const {
     const auto at = [&](int i, int j) {
-      return value_at({(x + (i + 0.5) / samples_) / options_.width, (y + (j + 0.5) / samples_) / options_.height}, values, masks);
+      return value_at({(x + (i + 0.5) / samples_) / options_.width, (y + (j + 0.5) / samples_) / options_.height}, desk);
     };
     if (samples_ == 1) return at(0, 0);
     LayerValue mean;
@@ -227,10 +189,9 @@ class Baker {
   void bake_band(std::uint32_t first, std::uint32_t rows) {
     std::atomic<std::uint32_t> next{0};
     const auto work = [&] {
-      std::vector<LayerValue> values(material_.layers.size());
-      std::vector<double> masks(material_.layers.size());
+      Desk desk(material_.layers.size());
       for (std::uint32_t row = next++; row < rows; row = next++)
-        for (std::uint32_t x = 0; x < options_.width; ++x) put(std::size_t{row} * options_.width + x, texel(x, first + row, values, masks));
+        for (std::uint32_t x = 0; x < options_.width; ++x) put(std::size_t{row} * options_.width + x, texel(x, first + row, desk));
     };
     const unsigned wanted = options_.threads > 0 ? options_.threads : std::max(std::thread::hardware_concurrency(), 1u);
     std::vector<std::thread> others;
@@ -311,7 +272,7 @@ class Baker {
 
   const LayeredMaterial& material_;
   const BakeOptions& options_;
-  const Pictures& pictures_;
+  const LayerPictures& pictures_;
   Plan plan_;
   int samples_;
   std::vector<Output> outputs_;
@@ -336,7 +297,7 @@ Status check(const LayeredMaterial& material, const BakeOptions& options) {
 
 Result<BakedMaterial> bake_layers(const LayeredMaterial& material, std::span<const ImageRef> images, const BakeOptions& options) {
   if (Status good = check(material, options); !good) return good.error();
-  Pictures pictures(images);
+  LayerPictures pictures(images);
   for (const MaterialLayer& layer : material.layers) {
     const Material& m = layer.material;
     std::vector<std::optional<Texture>> all{m.base_colour_texture, m.metal_rough_texture, m.specular_gloss_texture, m.emissive_texture,
