@@ -70,12 +70,13 @@ def register_surface_bsdfs(mi):
             self.m_components, self.m_flags = [glossy, diffuse], glossy | diffuse
 
         def mixture(self, si, active):
-            """The lobes at a place, the facets, and the share of directions chosen among them: by what each reflects to the view."""
+            """The lobes at a place, the facets, and the share of directions chosen among them: what they reflect to the view of all, but
+            more of narrow ones, which directions chosen on a light do not find: they find the diffuse light."""
             lobes = self.lobes(si, active)
             facets = Ggx(lobes.roughness, self.correlated, si.wi)
             weight = schlick_weight(si.wi.z)
             specular, diffuse = mean(lobes.f0 * (1 - weight) + lobes.f90 * weight), mean(lobes.albedo)
-            share = dr.clip(specular / (specular + diffuse), 0.1, 0.9)
+            share = dr.clip(specular / (specular + diffuse), dr.maximum(0.1, 0.75 * (1 - facets.alpha)), 0.9)
             share = dr.select(diffuse > 0, dr.select(specular > 0, share, 0), 1)
             return lobes, facets, share
 

@@ -46,12 +46,27 @@ std::vector<std::vector<double>> values_of(const std::string& model, int materia
   return rows;
 }
 
+// What directions are chosen by: facets that the view sees, or the cosine. Facets have their part of what is reflected to the view, at
+// least .1 and of narrow ones .75 (1 - alpha), at most .9.
+struct Chosen {
+  Rgb f0, f90, albedo;
+  double roughness;
+};
+double mean_of(const Rgb& c) { return (c.x + c.y + c.z) / 3; }
+double density(const Chosen& lobes, const Vec3d& view, const Vec3d& light) {
+  const double w = std::pow(1 - view.z, 5), alpha = std::max(lobes.roughness * lobes.roughness, 1e-4);
+  const double specular = mean_of(lobes.f0 * (1 - w) + lobes.f90 * w), diffuse = mean_of(lobes.albedo);
+  const double part = std::clamp(specular / (specular + diffuse), std::max(0.1, 0.75 * (1 - alpha)), 0.9);
+  const double share = diffuse > 0 && specular > 0 ? part : specular > 0 ? 1 : 0;
+  // All of our own directions are chosen so where nothing is diffused.
+  return share * eval::pdf_brdf(TwoColour{{0, 0, 0}, {1, 1, 1}, lobes.roughness}, view, light) + (1 - share) * light.z / pi;
+}
+
 // The directions are floats that are read in full, so both evaluate the same configuration, and v + l loses no digit where they nearly
 // cancel across the normal. What is left is the rounding of some 30 operations, each of them 6e-8 of a value that the result follows at
 // most by its fourth power (D, w): 30 * 4 * 6e-8 = 7e-6 if all went one way.
-// `densities`: directions are chosen with ours too.
-void expect_equal(const std::string& model, std::size_t parameters, bool densities,
-                  const std::function<eval::Brdf(const double*)>& brdf_of) {
+void expect_equal(const std::string& model, std::size_t parameters, const std::function<eval::Brdf(const double*)>& brdf_of,
+                  const std::function<Chosen(const double*)>& chosen_of) {
   const auto rows = values_of(model, 30, 400);
   ASSERT_EQ(rows.size(), 12000u);
   constexpr double limit = 7e-6;
@@ -66,27 +81,47 @@ void expect_equal(const std::string& model, std::size_t parameters, bool densiti
       ASSERT_GT(ours[c], 0);
       worst = std::max(worst, std::abs(d[6 + c] / ours[c] - 1));
     }
-    worst_pdf = std::max(worst_pdf, std::abs(d[9] / eval::pdf_brdf(brdf, view, light) - 1));
+    worst_pdf = std::max(worst_pdf, std::abs(d[9] / density(chosen_of(row.data()), view, light) - 1));
   }
   EXPECT_LE(worst, limit) << model;
-  if (densities) {
-    EXPECT_LE(worst_pdf, limit) << model;
-  }
+  EXPECT_LE(worst_pdf, limit) << model;
   std::printf("%s: largest relative deviation %.1e, of the density %.1e (limit %.0e)\n", model.c_str(), worst, worst_pdf, limit);
 }
 
 TEST(Plugins, StandardIsOurs) {
   if (!vectorised()) GTEST_SKIP() << "no Mitsuba in .venv or ETENDUE_MITSUBA, or no LLVM library for it";
-  expect_equal("etendue_standard", 6, true, [](const double* p) { return Standard{{p[0], p[1], p[2]}, p[3], p[4], p[5]}; });
+  expect_equal(
+      "etendue_standard", 6,
+      [](const double* p) {
+        return Standard{{p[0], p[1], p[2]}, p[3], p[4], p[5]};
+      },
+      [](const double* p) {
+        const Rgb base{p[0], p[1], p[2]};
+        const double metal = p[3], roughness = p[4], f0_dielectric = 0.16 * p[5] * p[5];
+        const Rgb f0 = Rgb{1, 1, 1} * (f0_dielectric * (1 - metal)) + base * metal;
+        const double f90 = std::min(50 * 0.33 * (f0.x + f0.y + f0.z), 1.0);
+        return Chosen{f0, {f90, f90, f90}, base * ((1 - metal) * (1 + roughness * (1 / 1.51 - 1))), roughness};
+      });
 }
 TEST(Plugins, MetalRoughIsOurs) {
   if (!vectorised()) GTEST_SKIP() << "no Mitsuba in .venv or ETENDUE_MITSUBA, or no LLVM library for it";
-  expect_equal("etendue_metal_rough", 6, false, [](const double* p) { return MetalRough{{p[0], p[1], p[2]}, p[3], p[4], p[5]}; });
+  expect_equal(
+      "etendue_metal_rough", 6,
+      [](const double* p) {
+        return MetalRough{{p[0], p[1], p[2]}, p[3], p[4], p[5]};
+      },
+      [](const double* p) {
+        const Rgb base{p[0], p[1], p[2]};
+        const double metallic = p[3], root = (p[5] - 1) / (p[5] + 1);
+        return Chosen{Rgb{1, 1, 1} * (root * root * (1 - metallic)) + base * metallic, {1, 1, 1}, base * (1 - metallic), p[4]};
+      });
 }
 TEST(Plugins, SpecularGlossinessIsOurs) {
   if (!vectorised()) GTEST_SKIP() << "no Mitsuba in .venv or ETENDUE_MITSUBA, or no LLVM library for it";
-  expect_equal("etendue_specular_glossiness", 7, true, [](const double* p) {
-    return two_colour_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, p[6]});
+  const auto two_colour = [](const double* p) { return two_colour_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, p[6]}); };
+  expect_equal("etendue_specular_glossiness", 7, two_colour, [&](const double* p) {
+    const TwoColour lobes = two_colour(p);
+    return Chosen{lobes.f0, {1, 1, 1}, lobes.diffuse, lobes.roughness};
   });
 }
 
