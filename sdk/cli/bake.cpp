@@ -24,9 +24,10 @@ struct Options {
   ImportOptions import;
 };
 
-// A square of 1 m in the XY plane, seen from +Z, uv (0, 0) at its upper left: something to show the material on.
-constexpr std::array<float, 32> square{-0.5f, 0.5f,  0, 0, 0, 1, 0, 0, 0.5f, 0.5f,  0, 0, 0, 1, 1, 0,
-                                       -0.5f, -0.5f, 0, 0, 0, 1, 0, 1, 0.5f, -0.5f, 0, 0, 0, 1, 1, 1};
+// A square of 1 m in the XY plane, seen from +Z, uv (0, 0) at its upper left: something to show the material on. Of each corner the place,
+// normal, tangent with the sign of its bitangent (+Y is up in a normal map), uv.
+constexpr std::array<float, 48> square{-0.5f, 0.5f,  0, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0.5f, 0.5f,  0, 0, 0, 1, 1, 0, 0, 1, 1, 0,
+                                       -0.5f, -0.5f, 0, 0, 0, 1, 1, 0, 0, 1, 0, 1, 0.5f, -0.5f, 0, 0, 0, 1, 1, 0, 0, 1, 1, 1};
 constexpr std::array<std::uint16_t, 6> square_triangles{0, 2, 1, 1, 2, 3};
 
 std::vector<std::byte> square_bytes() {
@@ -42,17 +43,18 @@ constexpr const char* square_document = R"({
   "scene": 0,
   "scenes": [{"nodes": [0]}],
   "nodes": [{"mesh": 0}],
-  "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TANGENT": 2, "TEXCOORD_0": 3}, "indices": 4, "material": 0}]}],
   "accessors": [
     {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-0.5, -0.5, 0], "max": [0.5, 0.5, 0]},
     {"bufferView": 0, "byteOffset": 12, "componentType": 5126, "count": 4, "type": "VEC3"},
-    {"bufferView": 0, "byteOffset": 24, "componentType": 5126, "count": 4, "type": "VEC2"},
+    {"bufferView": 0, "byteOffset": 24, "componentType": 5126, "count": 4, "type": "VEC4"},
+    {"bufferView": 0, "byteOffset": 40, "componentType": 5126, "count": 4, "type": "VEC2"},
     {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
   "bufferViews": [
-    {"buffer": 0, "byteLength": 128, "byteStride": 32, "target": 34962},
-    {"buffer": 0, "byteOffset": 128, "byteLength": 12, "target": 34963}],
-  "buffers": [{"uri": "square.bin", "byteLength": 140}]})";
-static_assert(sizeof(square) == 128 && sizeof(square_triangles) == 12);
+    {"buffer": 0, "byteLength": 192, "byteStride": 48, "target": 34962},
+    {"buffer": 0, "byteOffset": 192, "byteLength": 12, "target": 34963}],
+  "buffers": [{"uri": "square.bin", "byteLength": 204}]})";
+static_assert(sizeof(square) == 192 && sizeof(square_triangles) == 12);
 
 Json gltf_of(const BakedMaterial& baked) {
   const Material& m = baked.material;
