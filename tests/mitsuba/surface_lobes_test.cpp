@@ -1,6 +1,7 @@
 // glTF's lobes as the real Mitsuba shows them: each against a closed form of what the extension asks for, or of what the loss report says.
 #include "fixture.h"
 
+#include "etendue/picture.h"
 #include "exporters/mitsuba/lobe_fits.h"
 
 #include <cmath>
@@ -163,6 +164,46 @@ TEST(Lobes, ThinTransmissionSharesALight) {
   Scene half = square(m);
   add_environment(half);
   EXPECT_NEAR(seen(half, "half_pane", 4096).y, 40, 1);
+}
+
+// One texel whose red is .25: a quarter of the factor, of the coat as of the weight of a blend.
+TEST(Lobes, TexturesMultiplyFactors) {
+  ETENDUE_NEEDS_MITSUBA();
+  Picture texel;
+  texel.width = texel.height = 1;
+  texel.add("", 3).pixels = {0.25f, 1, 1};
+  ASSERT_TRUE(write_exr(texel, scratch() / "texel.exr").ok());
+  ImageRef image;
+  image.file = (scratch() / "texel.exr").string();
+  const Texture quarter;
+
+  const auto coated = [&](double factor, bool textured) {
+    Material m = surface(1, {0, 0, 0});
+    m.lobes.clearcoat = Clearcoat{};
+    m.lobes.clearcoat->factor = factor;
+    m.lobes.clearcoat->roughness = 0.4;
+    if (textured) m.lobes.clearcoat->factor_texture = quarter;
+    Scene scene = square(m);
+    scene.images.push_back(image);
+    add_distant(scene, {0, 0, -1});
+    return seen(scene, "coat").y;
+  };
+  const double none = coated(0, false), all = coated(1, false);
+  EXPECT_NEAR((coated(1, true) - none) / (all - none), 0.25, 1e-4);
+
+  const auto pane = [&](double factor, bool textured) {
+    Material m = surface(0.3, {0.5, 0.5, 0.5});
+    m.lobes.transmission = Transmission{factor, {}};
+    if (textured) m.lobes.transmission->factor_texture = quarter;
+    Scene scene = square(m);
+    scene.images.push_back(image);
+    add_distant(scene, {0, 0, -1});
+    return seen(scene, "pane").y;
+  };
+  // What is reflected diffusely goes down with what passes.
+  const double opaque = pane(0, false), clear = pane(1, false);
+  EXPECT_LT(clear, 0.95 * opaque);
+  EXPECT_NEAR((opaque - pane(1, true)) / (opaque - clear), 0.25, 1e-3);
 }
 
 // Lambert's law on the other side: E f colour / pi.
