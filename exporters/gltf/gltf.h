@@ -5,5 +5,12 @@
 #include "etendue/io.h"
 
 namespace etendue {
-std::unique_ptr<Exporter> make_gltf_exporter();
-}
+
+namespace gltf {
+// Of lights of a scene that carries no document: `emissive` gives those with a surface an emissive mesh beside their punctual light.
+enum class LightShapes { none, emissive };
+}  // namespace gltf
+
+std::unique_ptr<Exporter> make_gltf_exporter(gltf::LightShapes shapes = gltf::LightShapes::none);
+
+}  // namespace etendue

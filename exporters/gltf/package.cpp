@@ -7,6 +7,7 @@
 #include <cctype>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "mapped_file.h"
 #include "uri.h"
@@ -43,21 +44,8 @@ std::string percent_encoded(const std::string& name) {
   return out;
 }
 
-const char* mime_type_of(const SharedBytes& bytes) {
-  const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 12));
-  if (head.starts_with("\x89PNG")) return "image/png";
-  if (head.starts_with("\xff\xd8")) return "image/jpeg";
-  if (head.size() == 12 && head.starts_with("RIFF") && head.substr(8) == "WEBP") return "image/webp";
-  if (head.starts_with("\xabKTX 20")) return "image/ktx2";
-  return nullptr;
-}
-
-Result<SharedBytes> bytes_of(const ImageRef& image) {
-  if (image.embedded) return image.embedded;
-  return map_file(image.file, largest_file);
-}
-
-// Files that this call has written; they go again if it fails.
+// Files of one call. They are written under names of their own and take their places together, the named one last: who ends before that
+// leaves what was there before.
 class Files {
  public:
   explicit Files(const Document& document, const fs::path& file) : document_(document), file_(file) {}
@@ -65,7 +53,7 @@ class Files {
   Files& operator=(const Files&) = delete;
   ~Files() {
     std::error_code ignored;
-    for (const fs::path& path : written_) fs::remove(path, ignored);
+    for (const fs::path& path : written_) fs::remove(part_of(path), ignored);
   }
 
   Status write(const fs::path& target, std::span<const std::span<const std::byte>> pieces) {
@@ -73,7 +61,9 @@ class Files {
     fs::create_directories(folder_of(target), failure);
     if (failure)
       return Error{"FILE_UNWRITABLE", "cannot make the folder: " + failure.message(), {folder_of(target).string(), 0, 0, {}}, {}, {}};
-    if (Status status = write_file(target, pieces); !status) return status;
+    // Devices and pipes are written to, never replaced.
+    const bool is_device = fs::exists(target, failure) && !fs::is_regular_file(target, failure);
+    if (Status status = write_file(is_device ? target : part_of(target), pieces); !status) return status;
     written_.push_back(target);
     return Done{};
   }
@@ -106,12 +96,19 @@ class Files {
   }
 
   // The named file first.
-  std::vector<fs::path> done() {
+  Result<std::vector<fs::path>> done() {
+    for (const fs::path& path : written_) {
+      std::error_code failure;
+      if (fs::exists(part_of(path), failure)) fs::rename(part_of(path), path, failure);
+      if (failure) return Error{"FILE_UNWRITABLE", "cannot be put in place: " + failure.message(), {path.string(), 0, 0, {}}, {}, {}};
+    }
     std::rotate(written_.begin(), std::prev(written_.end()), written_.end());
     return std::exchange(written_, {});
   }
 
  private:
+  static fs::path part_of(const fs::path& path) { return folder_of(path) / ("." + path.filename().string() + ".part"); }
+
   const Document& document_;
   const fs::path& file_;
   std::vector<fs::path> written_;
@@ -154,7 +151,19 @@ class BinaryChunk {
     return at;
   }
   std::size_t size() const { return size_; }
-  const std::vector<SharedBytes>& parts() const { return parts_; }
+  // Without the last part's padding.
+  std::size_t length() const { return size_ - (7 - (parts_.back().size() + 7) % 8); }
+  // The first `count` bytes, in pieces.
+  void append_to(std::vector<std::span<const std::byte>>& pieces, std::size_t count) const {
+    static constexpr std::array<std::byte, 8> zeros{};
+    for (const SharedBytes& part : parts_) {
+      pieces.push_back(part.bytes().first(std::min(count, part.size())));
+      count -= pieces.back().size();
+      const std::size_t padding = std::min(count, (8 - part.size() % 8) % 8);
+      pieces.push_back(std::span(zeros).first(padding));
+      count -= padding;
+    }
+  }
 
  private:
   std::size_t size_ = 0;
@@ -203,6 +212,33 @@ std::vector<Gap> true_gaps(Json& document, const std::vector<Gap>& gaps, std::si
   return out;
 }
 
+Result<SharedBytes> bytes_in_text(const Json& buffer) {
+  const std::string uri = buffer.value("uri", "");
+  if (!is_data_uri(uri)) return SharedBytes();
+  Result<std::vector<std::uint8_t>> data = decode_data_uri(uri);
+  if (!data) return data.error();
+  return SharedBytes(std::move(*data));
+}
+
+// Whether a file is the one that an external buffer of the source lies in, which others may name too.
+bool is_named_by_source(const Document& document, const Json& buffer, const fs::path& target) {
+  const std::string* uri = relative_uri(buffer);
+  if (uri == nullptr) return false;
+  const Result<fs::path> file = file_inside(folder_of(document.scene.file), *uri);
+  std::error_code ignored;
+  return file && fs::equivalent(*file, target, ignored);
+}
+
+// What lies in a buffer, where its bytes stand now.
+void move_views(Json& document, std::size_t buffer, const MovedBuffer& moved) {
+  for_each_object(document["bufferViews"], [&](Json& view) {
+    const Json* of = index_in(view, "buffer");
+    if (of == nullptr || of->get<std::size_t>() != buffer) return;
+    const std::size_t before = view.value("byteOffset", std::size_t{0}), offset = moved.moved(before);
+    if (offset != before) view["byteOffset"] = offset;
+  });
+}
+
 class GlbPackage {
  public:
   GlbPackage(Document& document, Files& files) : document_(document), now_(document.now), files_(files) {}
@@ -211,9 +247,14 @@ class GlbPackage {
     if (Status merged = merge_buffers(); !merged) return merged;
     if (Status embedded = embed_images(); !embedded) return embedded;
     if (Status copied = copy_all(document_, files_, now_); !copied) return copied;
+    // A first buffer without a URI would be the chunk: one whose bytes nobody has needs another before it.
+    if (!has_chunk_ && chunk_.size() == 0 && now_.contains("buffers") && !now_["buffers"][0].contains("uri"))
+      chunk_.add(SharedBytes(std::vector<std::uint8_t>(4)));
     if (chunk_.size() > 0) {
       if (!has_chunk_) add_buffer_for_chunk();
-      now_["buffers"][0]["byteLength"] = chunk_length();
+      now_["buffers"][0]["byteLength"] = chunk_.length();
+    } else if (has_chunk_) {
+      remove_empty_buffer();
     }
     return write_chunks(file);
   }
@@ -255,14 +296,6 @@ class GlbPackage {
     return Done{};
   }
 
-  static Result<SharedBytes> bytes_in_text(const Json& buffer) {
-    const std::string uri = buffer.value("uri", "");
-    if (!is_data_uri(uri)) return SharedBytes();
-    Result<std::vector<std::uint8_t>> data = decode_data_uri(uri);
-    if (!data) return data.error();
-    return SharedBytes(std::move(*data));
-  }
-
   Status embed_images() {
     if (!now_.contains("images")) return Done{};
     for (std::size_t i = 0; i < now_["images"].size(); ++i) {
@@ -295,19 +328,28 @@ class GlbPackage {
     if (now_.contains("buffers"))
       for (Json& buffer : now_["buffers"]) buffers.push_back(std::move(buffer));
     const std::size_t images = document_.before.contains("bufferViews") ? document_.before["bufferViews"].size() : 0;
-    for (std::size_t i = 0; i < std::min(images, now_["bufferViews"].size()); ++i)
+    for (std::size_t i = 0; now_.contains("bufferViews") && i < std::min(images, now_["bufferViews"].size()); ++i)
       for_each_object(now_["bufferViews"][i], [](Json& view) {
         if (const Json* of = index_in(view, "buffer")) view["buffer"] = of->get<std::size_t>() + 1;
       });
     now_["buffers"] = std::move(buffers);
   }
 
-  std::size_t chunk_length() const { return chunk_.size() - (7 - (chunk_.parts().back().size() + 7) % 8); }
+  void remove_empty_buffer() {
+    Json& buffers = now_["buffers"];
+    buffers.erase(0);
+    if (buffers.empty()) now_.erase("buffers");
+    if (!now_.contains("bufferViews")) return;
+    for_each_object(now_["bufferViews"], [](Json& view) {
+      if (const Json* of = index_in(view, "buffer"); of != nullptr && of->get<std::size_t>() > 0)
+        view["buffer"] = of->get<std::size_t>() - 1;
+    });
+  }
 
   Status write_chunks(const fs::path& file) {
     std::string json = new_text(document_);
     json.resize((json.size() + 3) / 4 * 4, ' ');
-    const std::size_t binary = (chunk_.size() > 0 ? chunk_length() + 3 : 0) / 4 * 4;
+    const std::size_t binary = (chunk_.size() > 0 ? chunk_.length() + 3 : 0) / 4 * 4;
     const std::size_t total = 12 + 8 + json.size() + (binary > 0 ? 8 + binary : 0);
     if (total > std::numeric_limits<std::uint32_t>::max())
       return Error{"FILE_TOO_LARGE",
@@ -318,15 +360,7 @@ class GlbPackage {
     std::string head = "glTF" + little_endian(2) + little_endian(total) + little_endian(json.size()) + "JSON" + json;
     if (binary > 0) head += little_endian(binary) + std::string("BIN\0", 4);
     std::vector<std::span<const std::byte>> pieces{std::as_bytes(std::span(head))};
-    static constexpr std::array<std::byte, 8> zeros{};
-    std::size_t left = binary;
-    for (const SharedBytes& part : chunk_.parts()) {
-      pieces.push_back(part.bytes().first(std::min(left, part.size())));
-      left -= pieces.back().size();
-      const std::size_t padding = std::min(left, (8 - part.size() % 8) % 8);
-      pieces.push_back(std::span(zeros).first(padding));
-      left -= padding;
-    }
+    chunk_.append_to(pieces, binary);
     return files_.write(file, pieces);
   }
 
@@ -345,22 +379,56 @@ class GlbPackage {
 
 }  // namespace
 
+const char* mime_type_of(const SharedBytes& bytes) {
+  const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 12));
+  if (head.starts_with("\x89PNG")) return "image/png";
+  if (head.starts_with("\xff\xd8")) return "image/jpeg";
+  if (head.size() == 12 && head.starts_with("RIFF") && head.substr(8) == "WEBP") return "image/webp";
+  if (head.starts_with("\xabKTX 20")) return "image/ktx2";
+  return nullptr;
+}
+
+Result<SharedBytes> bytes_of(const ImageRef& image) {
+  if (image.embedded) return image.embedded;
+  return map_file(image.file, largest_file);
+}
+
 Result<std::vector<fs::path>> write_text_file(Document& document, const fs::path& file) {
   Files files(document, file);
   Json& now = document.now;
   const std::string stem = file.stem().string();
   const auto& carried = document.scene.carried.buffers;
-  for (std::size_t i = 0; now.contains("buffers") && i < std::min(now["buffers"].size(), carried.size()); ++i) {
+  std::set<std::size_t> ours;  // buffers that become files of ours
+  for (std::size_t i = 0; now.contains("buffers") && i < now["buffers"].size(); ++i) {
     Json& buffer = now["buffers"][i];
-    if (buffer.contains("uri") || !carried[i]) continue;
-    const std::array pieces{carried[i].bytes()};
-    if (Status status = files.write(folder_of(file) / (stem + ".bin"), pieces); !status) return status.error();
-    buffer["uri"] = percent_encoded(stem + ".bin");
+    std::vector<Gap> gaps = true_gaps(now, document.gaps, i);
+    Result<SharedBytes> bytes = i < carried.size() && carried[i] ? carried[i] : SharedBytes();
+    if (!*bytes && !gaps.empty()) bytes = bytes_in_text(buffer);
+    if (!bytes) return bytes.error();
+    BinaryChunk chunk;
+    const MovedBuffer moved(chunk, bytes->part(0, std::min(bytes->size(), buffer.value("byteLength", bytes->size()))), gaps);
+    if (chunk.size() == 0) gaps.clear();  // a buffer has a byte at least
+    if (!*bytes || (gaps.empty() && buffer.contains("uri"))) continue;
+    std::string name = stem + ".bin";
+    if (!ours.empty() || is_named_by_source(document, buffer, folder_of(file) / name)) name = fmt::format("{}_{}.bin", stem, i);
+    std::vector<std::span<const std::byte>> pieces;
+    if (gaps.empty()) {
+      pieces.push_back(bytes->bytes());
+    } else {
+      move_views(now, i, moved);
+      chunk.append_to(pieces, chunk.length());
+      buffer["byteLength"] = chunk.length();
+    }
+    if (Status status = files.write(folder_of(file) / name, pieces); !status) return status.error();
+    buffer["uri"] = percent_encoded(name);
+    ours.insert(i);
   }
   for (const auto& [place, image] : document.new_images) {
     const Result<SharedBytes> bytes = bytes_of(*image);
     if (!bytes) return bytes.error();
-    const std::string name = fmt::format("{}_files/{}_{}.png", plain(stem), place, plain(image->name));
+    const char* type = mime_type_of(*bytes);
+    const bool is_jpeg = type != nullptr && std::string_view(type) == "image/jpeg";
+    const std::string name = fmt::format("{}_files/{}_{}.{}", plain(stem), place, plain(image->name), is_jpeg ? "jpg" : "png");
     const std::array pieces{bytes->bytes()};
     if (Status status = files.write(folder_of(file) / name, pieces); !status) return status.error();
     now["images"][place]["uri"] = percent_encoded(name);
@@ -368,8 +436,7 @@ Result<std::vector<fs::path>> write_text_file(Document& document, const fs::path
   // What was just written lies beside the new file, not beside the source.
   Json others = now;
   for (const auto& [place, image] : document.new_images) others["images"][place].erase("uri");
-  for (std::size_t i = 0; others.contains("buffers") && i < others["buffers"].size(); ++i)
-    if (!document.before["buffers"][i].contains("uri")) others["buffers"][i].erase("uri");
+  for (const std::size_t i : ours) others["buffers"][i].erase("uri");
   if (Status status = copy_all(document, files, others); !status) return status.error();
 
   const std::string text = new_text(document);

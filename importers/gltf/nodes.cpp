@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "coincident.h"
 #include "json_values.h"
 #include "lights.h"
 
@@ -30,6 +31,7 @@ void Nodes::read_default_scene() {
   }
   for (const int root : tree_.roots()) visit(root, Transform{}, 1);
   if (wants(Need::lights)) add_environment();
+  if (wants(Need::lights) && wants(Need::meshes)) count_lamps_once(asset_, scene_);
 }
 
 void Nodes::read_every_material() {

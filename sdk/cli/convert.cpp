@@ -25,11 +25,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string in, out, to, loss, size = "512x512", camera, lights, mute, materials;
+  std::string in, out, to, loss, size = "512x512", camera, lights, mute, materials, readers = "all";
   ImportOptions import;
   int depth = 2, bits = 8;
   unsigned samples = 1024, jobs = 1;
-  bool force = false;
+  bool force = false, emissive_shapes = false;
 };
 
 struct Converted {
@@ -122,8 +122,17 @@ void convert_one(Converted& job, const Options& options, Size size, Progress* pr
     job.error = Error{"USAGE", fmt::format("{} is there already", job.out.string()), {}, "--force replaces it", {}};
     return;
   }
-  const auto exporter = exporters().exporter_for(job.out);
-  if (!exporter) return void(job.error = exporter.error());
+  const auto chosen_exporter = exporters().exporter_for(job.out);
+  if (!chosen_exporter) return void(job.error = chosen_exporter.error());
+  const Exporter* exporter = *chosen_exporter;
+  if (options.emissive_shapes) {
+    static const std::unique_ptr<Exporter> with_shapes = make_gltf_exporter(gltf::LightShapes::emissive);
+    if (exporter->describe().id != with_shapes->describe().id) {
+      job.error = Error{"USAGE", "--emissive-shapes is for glTF: other formats say the shapes of lights themselves", {}, "", {}};
+      return;
+    }
+    exporter = with_shapes.get();
+  }
   const auto importer = importers().importer_for(job.in);
   if (!importer) return void(job.error = importer.error());
   const auto model = model_of(options.materials);
@@ -137,16 +146,17 @@ void convert_one(Converted& job, const Options& options, Size size, Progress* pr
     job.error = Error{"INPUT_INVALID", fmt::format("{} has errors and is not converted", job.in.string()), {}, "", {}};
     return;
   }
-  const TextureFolder textures(job.out, (*exporter)->describe().id == "rig");
+  const TextureFolder textures(job.out, exporter->describe().id == "rig");
   if (model) {
-    auto conversion = convert_materials(imported->scene, {*model, options.bits, textures.path(), options.jobs > 1 ? 1u : 0u, progress});
+    auto conversion = convert_materials(imported->scene, {*model, options.bits, textures.path(), options.jobs > 1 ? 1u : 0u, progress,
+                                                          options.readers == "core" ? Readers::core : Readers::all});
     if (!conversion) return void(job.error = conversion.error());
     job.losses = std::move(conversion->losses);
     for (const MaterialChange& change : conversion->changes) job.materials.push_back(to_json(change, imported->scene));
   }
   const auto chosen = export_options(imported->scene, options, size);
   if (!chosen) return void(job.error = chosen.error());
-  Result<Exported> exported = (*exporter)->write(imported->scene, job.out, *chosen);
+  Result<Exported> exported = exporter->write(imported->scene, job.out, *chosen);
   if (!exported) return void(job.error = exported.error());
   job.files = std::move(exported->files);
   for (Loss& loss : exported->losses.losses) job.losses.losses.push_back(std::move(loss));
@@ -252,12 +262,23 @@ void add_convert(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--jobs", options->jobs, "Files of a folder at a time")->capture_default_str()->check(CLI::Range(1, 256));
   verb->add_option("--materials", options->materials, "All materials in one of glTF's models: metal-rough or spec-gloss")
       ->check(CLI::IsMember({"metal-rough", "spec-gloss"}));
+  verb->add_option(
+          "--readers", options->readers,
+          "Whom metal-rough serves: all (right where KHR_materials_specular is known, and as near as that allows in others), or core "
+          "(nearest in a reader that knows the core alone)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"all", "core"}));
   verb->add_option("--bits", options->bits, "Of a channel of new textures: 8 or 16")->capture_default_str()->check(CLI::IsMember({8, 16}));
+  verb->add_flag(
+      "--emissive-shapes", options->emissive_shapes,
+      "Into glTF: a mesh that emits its luminance beside each light with a surface, where the format itself has points and spots");
   verb->add_flag("--force", options->force, "Replace what is there");
   add_limits(*verb, options->import);
   verb->footer(
-      "\nExamples:\n  etendue convert kitchen.rig.json kitchen.xml\n  etendue convert glass.glb glass.xml --depth 8\n  etendue convert "
-      "chair.glb chair_mr.glb --materials metal-rough\n  "
+      "\nExamples:\n  etendue convert kitchen.rig.json kitchen.xml\n  etendue convert glass.glb glass.xml --depth 8\n  "
+      "etendue convert chair.glb chair_mr.glb --materials metal-rough\n  "
+      "etendue convert chair.glb chair_core.glb --materials metal-rough --readers core --bits 16\n  "
+      "etendue convert kitchen.rig.json kitchen.glb --emissive-shapes\n  "
       "etendue convert assets/ scenes/ --to .xml --jobs 4 --loss "
       "losses.json");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_convert(common, *options); }; });

@@ -202,10 +202,40 @@ TEST(GltfExport, AnotherFileOfTheSameNameIsNotReplaced) {
   EXPECT_FALSE(fs::exists(folder.path() / "out" / "in.gltf"));
 }
 
-TEST(GltfExport, ASceneThatCarriesNoDocumentIsRefused) {
-  const auto exported = make_gltf_exporter()->write({}, "nowhere.glb", {});
+// Of a picture that no texture refers to any more no byte stays, in the binary chunk or in a file beside it.
+TEST(GltfExport, BytesOfPicturesThatAreGoneGoWithThem) {
+  const auto png = test::png();
+  const std::string picture(png.begin(), png.end());
+  for (const bool from_text : {false, true}) {
+    for (const char* name : {"out.glb", "out.gltf"}) {
+      const Folder folder;
+      fs::path in = folder.write("in/in.glb", glb());
+      if (from_text) in = write(read(in), folder.path() / "in" / "in.gltf")[0];
+      Scene scene = read(in);
+      ASSERT_TRUE(convert_materials(scene, {MaterialModel::metal_rough, 8, folder.path() / "new", 1, nullptr}));
+      std::size_t left = 0;
+      const auto files = write(scene, folder.path() / "there" / name);
+      for (const fs::path& file : files) left += content(file).find(picture) != std::string::npos;
+      EXPECT_EQ(left, 0u) << in << ' ' << name;
+      const Scene back = read(files[0]);
+      EXPECT_EQ(back.meshes[0].positions, scene.meshes[0].positions);
+      EXPECT_EQ(back.meshes[0].normals, scene.meshes[0].normals);
+      EXPECT_EQ(back.meshes[0].uvs, scene.meshes[0].uvs);
+    }
+  }
+}
+
+// A file that cannot be written last: what was there before stays, and nothing new comes beside it.
+TEST(GltfExport, AFailedExportLeavesWhatWasThere) {
+  const Folder folder;
+  const auto in = folder.write("in.glb", glb());
+  folder.write("there/out.bin", "old");
+  fs::create_directories(folder.path() / "there" / ".out.gltf.part");  // where the named file would be made
+  folder.write("there/.out.gltf.part/x", "");
+  const auto exported = make_gltf_exporter()->write(read(in), folder.path() / "there" / "out.gltf", {});
   ASSERT_FALSE(exported);
-  EXPECT_EQ(exported.error().code, "FORMAT_UNSUPPORTED");
+  EXPECT_EQ(content(folder.path() / "there" / "out.bin"), "old");
+  EXPECT_FALSE(fs::exists(folder.path() / "there" / ".out.bin.part"));
 }
 
 }  // namespace

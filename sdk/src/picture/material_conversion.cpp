@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "deviations.h"
+#include "reader_weight.h"
 #include "texture_conversion.h"
 
 namespace etendue {
@@ -32,11 +33,22 @@ void report(MaterialConversion& out, const Scene& scene, const MaterialChange& c
   }
 }
 
-MaterialChange to_metal_rough(Material& material) {
+// For one pair of numbers that are stored as they are.
+MetalRoughColours colours_for(const ColourPair& pair, Readers readers) {
+  if (readers == Readers::core) return metal_rough_of(pair, weight_for_core);
+  const auto full_rms = [&](double weight) {
+    DeviationSums sums;
+    sums.add(in_full_reader(metal_rough_of(pair, weight)), pair);
+    return rms_of(sums.deviation());
+  };
+  return metal_rough_of(pair, least_weight(full_reader_limit(16), full_rms));
+}
+
+MaterialChange to_metal_rough(Material& material, Readers readers) {
   const auto model = std::get<SpecularGlossiness>(material.model);
   const TwoColour wanted = two_colour_of(model);
   const ColourPair pair{wanted.diffuse, wanted.f0};
-  const MetalRoughColours colours = metal_rough_of(pair);
+  const MetalRoughColours colours = colours_for(pair, readers);
   MaterialChange change;
   DeviationSums core, full;
   core.add(in_core_reader(colours), pair);
@@ -95,7 +107,7 @@ Result<MaterialConversion> convert_materials(Scene& scene, const ConversionOptio
     }
     const bool textured = has_model_textures(material);
     if (is_metal) report_factor(out, material);
-    Result<MaterialChange> change = !textured  ? (is_gloss ? to_metal_rough(material) : to_spec_gloss(material))
+    Result<MaterialChange> change = !textured  ? (is_gloss ? to_metal_rough(material, options.readers) : to_spec_gloss(material))
                                     : is_gloss ? textures.to_metal_rough(material)
                                                : textures.to_spec_gloss(material);
     if (!change && change.error().code == "TEXTURES_UNRELATED") {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "etendue/material_conversion.h"
 
@@ -10,7 +11,6 @@ namespace etendue {
 namespace {
 
 constexpr double core_f0 = 0.04;
-constexpr double weight_of_full = 1000;
 constexpr double as_good = 6e-8;  // 6 x (1e-4)^2
 
 double squared(const ColourPair& a, const ColourPair& b) {
@@ -32,32 +32,25 @@ ColourPair held(const ColourPair& pair) {
 
 ColourPair pair_with(const MetalRoughColours& m, const Rgb& k) { return {m.base * (1 - m.metal), k * (1 - m.metal) + m.base * m.metal}; }
 
-// In a full reader f0 is exact where 0 <= k = (f - m b) / (1 - m). With the diffuse colour exact too, b = d / (1 - m), that is
-// d m / (1 - m) <= f: m / (1 - m) <= f / d in each channel.
-double largest_exact_metal(const ColourPair& pair) {
-  double ratio = std::numeric_limits<double>::infinity();
-  for (int c = 0; c < 3; ++c)
-    if (pair.diffuse[c] > 0) ratio = std::min(ratio, std::max(pair.f0[c], 0.0) / pair.diffuse[c]);
-  return ratio < std::numeric_limits<double>::infinity() ? ratio / (1 + ratio) : 1;
-}
-
 }  // namespace
 
-double metal_rough_cost(const MetalRoughColours& colours, const ColourPair& pair) {
-  return squared(in_core_reader(colours), pair) + weight_of_full * squared(in_full_reader(colours), pair);
+double metal_rough_cost(const MetalRoughColours& colours, const ColourPair& pair, double weight) {
+  return squared(in_core_reader(colours), pair) + weight * squared(in_full_reader(colours), pair);
 }
+
+double full_reader_limit(int bits) { return bits == 8 ? 1e-3 : 1e-4; }
 
 ColourPair in_core_reader(const MetalRoughColours& colours) { return pair_with(colours, {core_f0, core_f0, core_f0}); }
 ColourPair in_full_reader(const MetalRoughColours& colours) { return pair_with(colours, colours.dielectric_f0); }
 
 // For a given m each channel stands alone. Where k is free the full reader's f0 is exact, and what is left is
-//   (1 + w) ((1 - m) b - d)^2 + (m b - g)^2,  g = f - .04 (1 - m),  w = 1000,
+//   (1 + w) ((1 - m) b - d)^2 + (m b - g)^2,  g = f - .04 (1 - m),  w the weight,
 // a parabola in b. Where its least b asks for a k = (f - m b) / (1 - m) below 0 or above 1, k stands at that end and f0's difference in the
 // full reader comes in: + w (m b - (f - (1 - m) k))^2. The least over k is convex in b, so that b is held within [0, 1] by clamping.
-MetalRoughColours metal_rough_at(double metal, const ColourPair& given) {
+MetalRoughColours metal_rough_at(double metal, const ColourPair& given, double weight) {
   const ColourPair pair = held(given);
   MetalRoughColours out;
-  const double m = out.metal = std::clamp(held(metal), 0.0, 1.0), left = 1 - m, w = weight_of_full;
+  const double m = out.metal = std::clamp(held(metal), 0.0, 1.0), left = 1 - m, w = weight;
   for (int c = 0; c < 3; ++c) {
     const double d = pair.diffuse[c], f = pair.f0[c];
     const double towards = (1 + w) * left * d + m * (f - core_f0 * left), across = (1 + w) * left * left + m * m;
@@ -69,20 +62,78 @@ MetalRoughColours metal_rough_at(double metal, const ColourPair& given) {
   return out;
 }
 
-MetalRoughColours metal_rough_of(const ColourPair& given) {
-  const ColourPair pair = held(given);
-  const double core = fit_disney(pair, DielectricF0::core).value.metal;
-  const std::array<double, 4> masks{0, 1, core, std::min(core, largest_exact_metal(pair))};
-  std::array<MetalRoughColours, 4> found;
-  std::array<double, 4> costs{};
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < masks.size(); ++i) {
-    found[i] = metal_rough_at(masks[i], pair);
-    costs[i] = metal_rough_cost(found[i], pair);
-    least = std::min(least, costs[i]);
+namespace {
+
+// What a mask costs with the best base colour and dielectric f0.
+struct MaskCost {
+  double metal = 0, cost = std::numeric_limits<double>::infinity();
+};
+
+// Where a bound begins to hold. With s = 1 - m a full reader's b = d / s and k = (f - m b) / s are exact while b <= 1, that is s >= d; k >=
+// 0, that is m <= f / (f + d); and k <= 1, that is s^2 - (f + d) s + d >= 0.
+class Kinks {
+ public:
+  explicit Kinks(const ColourPair& pair) {
+    for (int c = 0; c < 3; ++c) {
+      const double d = pair.diffuse[c], f = pair.f0[c], half = (f + d) / 2, square = half * half - d;
+      add(1 - d);
+      if (f > 0 && d > 0) add(f / (f + d));
+      if (square <= 0) continue;
+      add(1 - half - std::sqrt(square));
+      add(1 - half + std::sqrt(square));
+    }
+    std::sort(places_.begin(), places_.begin() + static_cast<std::ptrdiff_t>(count_));
   }
-  const auto first = std::find_if(costs.begin(), costs.end(), [&](double c) { return c <= least + as_good; });
-  return found[static_cast<std::size_t>(first - costs.begin())];
+  std::span<const double> sorted() const { return std::span(places_).first(count_); }
+
+ private:
+  void add(double m) {
+    if (m > 0 && m < 1) places_[count_++] = m;
+  }
+  std::array<double, 12> places_{};
+  std::size_t count_ = 0;
+};
+
+// A function of m with several valleys, which a large weight makes narrow: from the best point of a grid, and from the best of the kinks
+// and the middles between these, in steps that halve.
+MaskCost best_mask(const ColourPair& pair, double weight) {
+  const auto consider = [&](MaskCost& best, double m) {
+    const double cost = metal_rough_cost(metal_rough_at(m, pair, weight), pair, weight);
+    if (cost < best.cost) best = {m, cost};
+  };
+  const auto refine = [&](MaskCost& best, double width) {
+    for (int halving = 0; halving < 12; ++halving, width /= 2) {
+      const double at = best.metal;
+      consider(best, std::max(at - width, 0.0));
+      consider(best, std::min(at + width, 1.0));
+    }
+  };
+  MaskCost best, of_kinks;
+  constexpr int steps = 20;
+  for (int i = 0; i <= steps; ++i) consider(best, static_cast<double>(i) / steps);
+  double last = 0, widest = 0;
+  const Kinks kinks(pair);
+  for (const double kink : kinks.sorted()) {
+    consider(of_kinks, kink);
+    consider(of_kinks, (last + kink) / 2);
+    widest = std::max(widest, kink - last);
+    last = kink;
+  }
+  refine(best, 0.5 / steps);
+  if (of_kinks.cost < std::numeric_limits<double>::infinity()) refine(of_kinks, std::min(widest / 4, 0.5 / steps));
+  return of_kinks.cost < best.cost ? of_kinks : best;
+}
+
+}  // namespace
+
+MetalRoughColours metal_rough_of(const ColourPair& given, double weight) {
+  const ColourPair pair = held(given);
+  const MaskCost best = best_mask(pair, weight);
+  for (const double binary : {0.0, 1.0}) {
+    const MetalRoughColours colours = metal_rough_at(binary, pair, weight);
+    if (metal_rough_cost(colours, pair, weight) <= best.cost + as_good) return colours;
+  }
+  return metal_rough_at(best.metal, pair, weight);
 }
 
 }  // namespace etendue

@@ -8,8 +8,9 @@
 #include <limits>
 #include <thread>
 
-#include "code_table.h"
 #include "png_rows.h"
+#include "reader_weight.h"
+#include "stored_metal_rough.h"
 #include "texel_cache.h"
 #include "texture_rows.h"
 
@@ -93,7 +94,6 @@ struct Worker {
   TexelCache cache;
   DeviationSums core, full;
   Rgb largest_k{0, 0, 0};
-  double diffuse_alone = 0, optimum = 0;  // sums of squares in a core-only reader
 
   auto leaving() {
     return [this](const TexelValue& value, std::uint64_t count) {
@@ -103,50 +103,34 @@ struct Worker {
   }
 };
 
-// The best of what can be stored: metal masks on both sides of the best one, with the base colour and dielectric f0 for each.
-class StoredMetalRough {
+// Some texels that stand for all: one in each cell of a grid, at a place in it that no pattern of the picture follows.
+class Samples {
  public:
-  StoredMetalRough(int bits, const Rgb& largest_k) : colour_(bits, true), mask_(bits, false), largest_k_(largest_k) {}
-
-  // Codes: 0-2 base colour, 3 metal, 4-6 dielectric f0 over its largest.
-  TexelValue operator()(const ColourPair& pair) const {
-    const double metal = metal_rough_of(pair).metal * mask_.top();
-    TexelValue best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const double code : {std::floor(metal), std::ceil(metal)}) {
-      TexelValue value;
-      const MetalRoughColours stored = store(static_cast<std::uint16_t>(code), pair, value);
-      const double cost = metal_rough_cost(stored, pair);
-      if (!(cost < least)) continue;
-      least = cost;
-      best = value;
-    }
-    return best;
+  Samples(std::uint32_t width, std::uint32_t height)
+      : cell_(static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(width) * height / 2048)))),
+        columns_((width + cell_ - 1) / cell_),
+        pairs_(std::size_t{columns_} * ((height + cell_ - 1) / cell_)),
+        width_(width),
+        height_(height) {}
+  // The sampled texels of a row. Each has a place of its own, so that rows can be given from several threads.
+  template <class PairAt>
+  void add_row(std::uint32_t y, PairAt pair_at) {
+    const std::uint32_t row = y / cell_;
+    if (place(row, columns_, std::min(cell_, height_ - row * cell_)) != y % cell_) return;
+    for (std::uint32_t column = 0; column < columns_; ++column)
+      pairs_[std::size_t{row} * columns_ + column] = pair_at(column * cell_ + place(row, column, std::min(cell_, width_ - column * cell_)));
   }
-  const CodeTable& colour() const { return colour_; }
-  const CodeTable& mask() const { return mask_; }
+  std::span<const ColourPair> pairs() const { return pairs_; }
 
  private:
-  MetalRoughColours store(std::uint16_t metal, const ColourPair& pair, TexelValue& out) const {
-    MetalRoughColours stored = metal_rough_at(mask_.linear(metal), pair);
-    out.codes[3] = metal;
-    for (int c = 0; c < 3; ++c) {
-      const auto channel = static_cast<std::size_t>(c);
-      stored.base[c] = colour_.linear(out.codes[channel] = colour_.nearest(stored.base[c]));
-      const double left = 1 - stored.metal, largest = largest_k_[c];
-      // Where it has no effect: at metals, and where no texel has any.
-      const double k = left > 0 && largest > 0 ? (pair.f0[c] - stored.metal * stored.base[c]) / left / largest : 1;
-      out.codes[4 + channel] = colour_.nearest(k);
-      stored.dielectric_f0[c] = largest * colour_.linear(out.codes[4 + channel]);
-    }
-    out.wanted = pair;
-    out.core = in_core_reader(stored);
-    out.full = in_full_reader(stored);
-    return stored;
+  // The high half of a product of Knuth's multiplicative hashing.
+  static std::uint32_t place(std::uint32_t row, std::uint32_t column, std::uint32_t size) {
+    const std::uint64_t hash = ((std::uint64_t{row} << 32 | column) + 1) * 0x9e3779b97f4a7c15u;
+    return static_cast<std::uint32_t>((hash >> 40) % size);
   }
-
-  CodeTable colour_, mask_;
-  Rgb largest_k_;
+  std::uint32_t cell_, columns_;
+  std::vector<ColourPair> pairs_;
+  std::uint32_t width_, height_;
 };
 
 // Codes: 0-2 specular, 3-5 diffuse. The diffuse colour makes up for the specular one as it is stored.
@@ -266,24 +250,29 @@ Result<MaterialChange> TextureConversion::to_metal_rough(Material& material) {
     return TexelKey{d[0], d[1], d[2], s[0], s[1], s[2], 0, 0};
   };
 
-  // First what all texels have in common: the largest f0 of the dielectric part, which the stored ones are shares of.
+  // First what all texels have in common: the largest f0 of the dielectric part, which the stored ones are shares of, and samples for how
+  // much each reader counts. That is not known yet: the largest f0 is that of a weight which most materials stay below, since the more the
+  // full reader counts, the more of it is asked for.
+  const bool for_all = options_.readers == Readers::all;
+  const double survey_weight = !for_all ? weight_for_core : options_.bits == 8 ? 1e3 : 1e5;
   std::vector<Worker> workers(threads_);
+  Samples samples(rows->width(), rows->height());
   Status done = rows->for_each(
       threads_, options_.progress, "survey of " + material.name,
       [&](const TextureRows::Row& row) {
         Worker& worker = workers[row.thread];
+        samples.add_row(row.y, [&](std::uint32_t x) { return pair_of(key_at(row, x)); });
         for (std::uint32_t x = 0; x < rows->width(); ++x) {
           worker.cache.at(
               key_at(row, x),
               [&](const TexelKey& key) {
                 const ColourPair pair = pair_of(key);
-                const MetalRoughColours colours = metal_rough_of(pair);
+                const MetalRoughColours colours = metal_rough_of(pair, survey_weight);
                 for (int c = 0; c < 3 && colours.metal < 1; ++c)
                   worker.largest_k[c] = std::max(worker.largest_k[c], colours.dielectric_f0[c]);
                 TexelValue value;
                 value.wanted = pair;
                 value.core = in_core_reader({pair.diffuse, 0, {}});
-                if (!has_specular) value.full = in_core_reader(colours);
                 return value;
               },
               worker.leaving());
@@ -292,13 +281,14 @@ Result<MaterialChange> TextureConversion::to_metal_rough(Material& material) {
       [](std::uint32_t) { return Status(Done{}); });
   if (!done) return done.error();
   Rgb largest_k{0, 0, 0};
-  DeviationSums diffuse_alone, best;
+  DeviationSums diffuse_alone;
   for (Worker& worker : workers) {
     worker.cache.empty(worker.leaving());
     for (int c = 0; c < 3; ++c) largest_k[c] = std::max(largest_k[c], worker.largest_k[c]);
     diffuse_alone.add(worker.core);
-    best.add(worker.full);
   }
+  StoredMetalRough solve(options_.bits, largest_k);
+  if (for_all) solve.fit(samples.pairs());
 
   MaterialChange change;
   change.texels = std::uint64_t{rows->width()} * rows->height();
@@ -310,8 +300,12 @@ Result<MaterialChange> TextureConversion::to_metal_rough(Material& material) {
   };
   // One specular colour for all texels, and no metal would bring a core-only reader closer: the diffuse picture stays as it is, its factor
   // takes 1 - max(specular), and a full reader loses nothing.
-  if (const double alone = rms_of(diffuse_alone.deviation()), least = rms_of(best.deviation());
-      !has_specular && alone <= 1.005 * least + 1e-4) {
+  DeviationSums alone, best;
+  for (const ColourPair& pair : samples.pairs()) {
+    alone.add(in_core_reader({pair.diffuse, 0, {}}), pair);
+    best.add(in_core_reader(metal_rough_of(pair, solve.weight())), pair);
+  }
+  if (!has_specular && rms_of(alone.deviation()) <= 1.005 * rms_of(best.deviation()) + 1e-4) {
     material.model = MetalRough{model.diffuse * (1 - std::clamp(largest(model.specular), 0.0, 1.0)), 0, 1 - model.glossiness, 1.5};
     specular_lobe(model.specular, {});
     change.core = diffuse_alone.deviation();
@@ -319,7 +313,6 @@ Result<MaterialChange> TextureConversion::to_metal_rough(Material& material) {
     return change;
   }
 
-  const StoredMetalRough solve(options_.bits, largest_k);
   const CodeTable& mask = solve.mask();
   if (Status made = make_folder(); !made) return made.error();
   const std::string stem = fmt::format("{}_{}", files_++, plain(material.name));

@@ -1,0 +1,128 @@
+"""What no metallic-roughness file can go below: optima and bounds over all base colours, metal masks and dielectric f0, in numpy.
+
+A pair is (d, f), diffuse colour and f0; a file says b and m to all readers, and the dielectric's k to those that know
+KHR_materials_specular: ((1 - m) b, k (1 - m) + m b), with k = .04 in a core-only reader. E_core and E_full are the sums of the six squares.
+"""
+import numpy as np
+
+CORE = 0.04
+
+
+def weighted(pairs):
+    """Distinct pairs, and the share of the texels that each has."""
+    distinct, counts = np.unique(np.concatenate(pairs, 1), axis=0, return_counts=True)
+    return distinct[:, :3], distinct[:, 3:], counts / counts.sum()
+
+
+def rms_of(squares, share):
+    return float(np.sqrt((squares * share).sum() / 6))
+
+
+def best_base(m, d, f, weight):
+    """The b of least E_core + weight E_full for masks m, each channel by itself: a parabola where k is free, another where it is at an end."""
+    m = m[:, None]
+    left = 1 - m
+    towards, across = (1 + weight) * left * d + m * (f - CORE * left), (1 + weight) * left * left + m * m
+    with np.errstate(all="ignore"):
+        k = np.where(left > 0, (f - m * towards / across) / np.maximum(left, 1e-300), f - m * towards / across)
+    bound = np.where((k < 0) | (k > 1) | (left == 0), weight, 0)
+    return np.clip((towards + bound * m * (f - left * (k > 0))) / (across + bound * m * m), 0, 1)
+
+
+def errors(b, m, d, f):
+    """E_core and E_full of base colours b in each channel, with the best k."""
+    m = m[:, None]
+    left = 1 - m
+    diffuse = (left * b - d) ** 2
+    k = np.clip((f - m * b) / np.maximum(left, 1e-300), 0, 1)
+    return diffuse + (CORE * left + m * b - f) ** 2, diffuse + (k * left + m * b - f) ** 2
+
+
+def search(d, f, weight):
+    """E_core and E_full where E_core + weight E_full is least: 193 masks, and the neighbourhood of the best one in finer steps, twice."""
+    best, found = np.full(len(d), np.inf), np.zeros((3, len(d)))
+
+    def consider(m):
+        nonlocal best, found
+        core, full = (e.sum(1) for e in errors(best_base(m, d, f, weight), m, d, f))
+        better = core + weight * full < best
+        best = np.where(better, core + weight * full, best)
+        found = np.where(better, np.stack([core, full, m]), found)
+
+    for m in np.linspace(0, 1, 193):
+        consider(np.full(len(d), m))
+    for width in (1 / 192, 1 / 1536):
+        middle = found[2].copy()
+        for step in np.linspace(-width, width, 17):
+            consider(np.clip(middle + step, 0, 1))
+    return found[0], found[1]
+
+
+def of_codes(d, f, weight, top):
+    """The same over what textures of that many codes can hold without factors (k is left free, which can only lower it). E_full's least over
+    k is convex in b, and so is the sum: of the codes the best is one beside the best b."""
+    table = np.arange(top + 1) / top
+    table = np.where(table <= 0.04045, table / 12.92, ((table + 0.055) / 1.055) ** 2.4)
+    best, found = np.full(len(d), np.inf), np.zeros((2, len(d)))
+    for code in range(top + 1):
+        m = np.full(len(d), code / top)
+        above = np.clip(np.searchsorted(table, best_base(m, d, f, weight)), 1, top)
+        low, high = errors(table[above - 1], m, d, f), errors(table[above], m, d, f)
+        better = high[0] + weight * high[1] < low[0] + weight * low[1]
+        core, full = (np.where(better, h, w).sum(1) for h, w in zip(high, low))
+        less = core + weight * full < best
+        best = np.where(less, core + weight * full, best)
+        found = np.where(less, np.stack([core, full]), found)
+    return found[0], found[1]
+
+
+def in_parts(function, d, f, *rest):
+    parts = [function(d[i:i + 20000], f[i:i + 20000], *rest) for i in range(0, len(d), 20000)]
+    return tuple(np.concatenate(columns) for columns in zip(*parts))
+
+
+def core_optimum(d, f, share):
+    """The least rms of a core-only reader: a full one counts for nothing."""
+    return rms_of(in_parts(search, d, f, 0.0)[0], share)
+
+
+def bounds(d, f, share, limit, bits):
+    """The least rms of a core-only reader that any file can have whose full reader's rms is within the limit, and the least of files with
+    textures of so many bits. By duality: whatever the weight, the mean of least E_core + weight (E_full - 6 limit^2) is below the mean of
+    E_core of every such file. The weight that makes the most of it is looked for on some of the pairs, since any one gives a bound."""
+    few = np.random.default_rng(1).choice(len(d), min(len(d), 3000), replace=False, p=share)
+    part = share[few] / share[few].sum()
+
+    def value(found, of, weight):
+        return float(np.sqrt(max(((found[0] + weight * (found[1] - 6 * limit * limit)) * of).sum() / 6, 0)))
+
+    def best_weight(function, *rest):
+        weights = 10.0 ** np.arange(0, 7.1, 0.5)
+        values = [value(function(d[few], f[few], w, *rest), part, w) for w in weights]
+        return weights[int(np.argmax(values))]
+
+    w = best_weight(search)
+    any_file = value(in_parts(search, d, f, w), share, w)
+    if bits > 8:
+        return any_file, any_file
+    w = best_weight(of_codes, 255)
+    return any_file, value(in_parts(of_codes, d, f, w, 255), share, w)
+
+
+def closed_form(d, f):
+    """Khronos' reference converter (glTF repository, extensions/2.0/Archived/KHR_materials_pbrSpecularGlossiness/examples), by its published
+    formula: the metal mask from the brightness of both colours as a root of a quadratic equation, the base colour between what diffuse and
+    specular say, by the mask's square. Its dielectrics lose .04 of the diffuse colour, which today's glTF no longer says: with and without
+    that factor, to be measured by the better one. Pairs of (diffuse, f0) as a reader sees them."""
+    strength = 1 - f.max(1)
+    diffuse = d / np.maximum(strength, 1e-300)[:, None]  # the extension's own diffuse colour
+    weights = np.array([0.299, 0.587, 0.114])
+    bright_d, bright_f = np.sqrt((diffuse ** 2 * weights).sum(1)), np.sqrt((f ** 2 * weights).sum(1))
+    b, c = bright_d * strength / (1 - CORE) + bright_f - 2 * CORE, CORE - bright_f
+    root = np.sqrt(np.maximum(b * b - 4 * CORE * c, 0))
+    m = np.where(bright_f < CORE, 0, np.clip((-b + root) / (2 * CORE), 0, 1))[:, None]
+    for factor in (1 - CORE, 1.0):
+        of_diffuse = diffuse * strength[:, None] / factor / np.maximum(1 - m, 1e-6)
+        of_specular = (f - CORE * (1 - m)) / np.maximum(m, 1e-6)
+        base = np.clip(of_diffuse + (of_specular - of_diffuse) * m * m, 0, 1)
+        yield (1 - m) * base, CORE * (1 - m) + m * base
