@@ -16,5 +16,7 @@ nlohmann::ordered_json standard_albedo_curves();
 // sphere).
 nlohmann::ordered_json masking_spheres(int size);
 nlohmann::ordered_json diffuse_spheres(int size);
+// Two layers, half of each: their light summed up, and their blended parameters and colours. Three numbers a pixel, red, green, blue.
+nlohmann::ordered_json layered_spheres(int size);
 
 }  // namespace etendue::bench

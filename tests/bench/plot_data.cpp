@@ -213,6 +213,7 @@ int main() {
                     {"standard_albedos", standard_albedo_curves()},
                     {"masking_spheres", masking_spheres(96)},
                     {"diffuse_spheres", diffuse_spheres(96)},
+                    {"layered_spheres", layered_spheres(96)},
                     {"smoothness_remaps", smoothness_remaps()},
                     {"specular_occlusions", specular_occlusions()}};
   fmt::print("{}\n", all.dump());
