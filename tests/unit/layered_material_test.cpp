@@ -162,6 +162,15 @@ TEST(LayeredMaterial, WhatIsWrongIsSaid) {
   stack.images.push_back({"/no/such/picture.png", {}, {}, {}});
   EXPECT_EQ(stack.bake(1, 1).error().code, "FILE_UNREADABLE");
 
+  Picture picture;
+  picture.width = 2, picture.height = 1;
+  picture.add("", 3).pixels = {1, 1, 1, 1, std::nanf(""), 1};
+  ASSERT_TRUE(write_exr(picture, folder() / "nan.exr"));
+  stack.images[0].file = (folder() / "nan.exr").string();
+  const Error error = stack.bake(1, 1).error();
+  EXPECT_EQ(error.code, "PICTURE_UNSUITABLE");
+  EXPECT_NE(error.text.find("(1, 0)"), std::string::npos);
+
   struct Stop : Progress {
     bool report(std::string_view, double fraction) override { return fraction == 0; }
   } stop;

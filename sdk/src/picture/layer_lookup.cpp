@@ -1,12 +1,19 @@
 #include "layer_lookup.h"
 
 #include "etendue/textured_surface.h"
+#include "finite_picture.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 
 namespace etendue {
+namespace {
+
+constexpr std::uint64_t max_pixels = std::uint64_t{1} << 28;
+
+}  // namespace
 
 Status LayerPictures::load(const std::optional<Texture>& texture) {
   if (!texture) return Done{};
@@ -14,7 +21,7 @@ Status LayerPictures::load(const std::optional<Texture>& texture) {
     return Error{"LAYERS_INVALID", fmt::format("expected one of {} images, found {}", images_.size(), texture->image), {}, {}, {}};
   const std::pair key{texture->image, texture->encoding};
   if (decoded_.contains(key)) return Done{};
-  Result<DecodedImage> image = decode(images_[texture->image], texture->encoding);
+  Result<DecodedImage> image = decode_finite(images_[texture->image], texture->encoding, max_pixels);
   if (!image) return image.error();
   decoded_.emplace(key, std::move(*image));
   return Done{};
@@ -22,6 +29,15 @@ Status LayerPictures::load(const std::optional<Texture>& texture) {
 
 Rgba LayerPictures::at(const std::optional<Texture>& texture, Vec2d uv) const {
   return texture ? sample(of(*texture), *texture, uv) : Rgba{1, 1, 1, 1};
+}
+
+Rgb LayerPictures::brightest(const std::optional<Texture>& texture) const {
+  if (!texture) return {1, 1, 1};
+  Rgb most;
+  const std::vector<float>& rgba = of(*texture).rgba;
+  for (std::size_t i = 0; i < rgba.size(); ++i)
+    if (const auto c = static_cast<int>(i % 4); c < 3) most[c] = std::max(most[c], static_cast<double>(rgba[i]));
+  return most;
 }
 
 const Standard& SurfaceFits::of(const SpecularGlossiness& surface) {

@@ -20,11 +20,13 @@ class LayerPictures {
  public:
   explicit LayerPictures(std::span<const ImageRef> images) : images_(images) {}
 
-  // Errors: LAYERS_INVALID for a picture that is not there, those of decode().
+  // Errors: LAYERS_INVALID for a picture that is not there, those of decode(), PICTURE_UNSUITABLE where a number is not finite.
   Status load(const std::optional<Texture>& texture);
   const DecodedImage& of(const Texture& texture) const { return decoded_.at({texture.image, texture.encoding}); }
   // White where there is no texture.
   Rgba at(const std::optional<Texture>& texture, Vec2d uv) const;
+  // Its largest numbers, channel by channel; 1 where there is no texture.
+  Rgb brightest(const std::optional<Texture>& texture) const;
   std::uint64_t count() const { return decoded_.size(); }
 
  private:

@@ -40,7 +40,7 @@ struct Plan {
   double reflectance = 0.5;  // of all, unless `specular`
   double emission = 0;       // of the brightest channel and layer
 };
-Plan plan_of(const LayeredMaterial& material) {
+Plan plan_of(const LayeredMaterial& material, const LayerPictures& pictures) {
   Plan plan;
   plan.reflectance = reflectance_factor(material.layers[0].material.model);
   for (const MaterialLayer& layer : material.layers) {
@@ -48,7 +48,8 @@ Plan plan_of(const LayeredMaterial& material) {
     plan.normal = plan.normal || m.normal_map.has_value();
     plan.specular = plan.specular || material.blend == LayerBlend::colours || !has_one_reflectance(m.model) ||
                     std::abs(reflectance_factor(m.model) - plan.reflectance) > same_reflectance;
-    plan.emission = std::max({plan.emission, m.emissive.x, m.emissive.y, m.emissive.z});
+    const Rgb emission = m.emissive * pictures.brightest(m.emissive_texture);
+    plan.emission = std::max({plan.emission, emission.x, emission.y, emission.z});
   }
   plan.emissive = plan.emission > 0;
   return plan;
@@ -70,7 +71,7 @@ struct Output {
 class Baker {
  public:
   Baker(const LayeredMaterial& material, const BakeOptions& options, const LayerPictures& pictures)
-      : material_(material), options_(options), pictures_(pictures), plan_(plan_of(material)), samples_(samples()) {}
+      : material_(material), options_(options), pictures_(pictures), plan_(plan_of(material, pictures)), samples_(samples()) {}
 
   Result<BakedMaterial> bake() {
     Status done = open();

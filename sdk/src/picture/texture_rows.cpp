@@ -5,6 +5,8 @@
 #include <cmath>
 #include <thread>
 
+#include "finite_picture.h"
+
 namespace etendue {
 namespace {
 
@@ -78,18 +80,8 @@ Result<TextureRows> TextureRows::open(const Scene& scene, const Textures& textur
         source.rows->width() == out.width_ && source.rows->height() == out.height_ && is_identity(source.texture.uv_transform);
     if (as_it_is) continue;
     source.rows.reset();
-    Result<DecodedImage> picture = decode(*source.image, source.texture.encoding, max_pixels);
+    Result<DecodedImage> picture = decode_finite(*source.image, source.texture.encoding, max_pixels);
     if (!picture) return picture.error();
-    const auto bad = std::find_if(picture->rgba.begin(), picture->rgba.end(), [](float v) { return !std::isfinite(v); });
-    if (bad != picture->rgba.end()) {
-      const auto pixel = static_cast<std::size_t>(bad - picture->rgba.begin()) / 4;
-      return Error{"PICTURE_UNSUITABLE",
-                   "expected finite numbers, found another one at pixel (" + std::to_string(pixel % picture->width) + ", " +
-                       std::to_string(pixel / picture->width) + ")",
-                   {shown_name(*source.image), 0, 0, {}},
-                   {},
-                   {}};
-    }
     source.picture = std::move(*picture);
   }
   return out;
