@@ -154,7 +154,7 @@ TEST(Orientation, EnvironmentTexel) {
   Picture map;
   map.width = 16, map.height = 8;
   std::vector<float>& texels = map.add("", 3).pixels;
-  for (std::size_t c = 0; c < 3; ++c) texels[(2 * 16 + 4) * 3 + c] = 100;
+  for (std::size_t c = 0; c < 3; ++c) texels[std::size_t{2 * 16 + 4} * 3 + c] = 100;
   ASSERT_TRUE(write_exr(map, scratch() / "texel.exr").ok());
   Light sky = light_of(EnvironmentShape{0});
   sky.emission.given = Emission::Given::as_file;

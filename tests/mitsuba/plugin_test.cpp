@@ -13,8 +13,6 @@
 namespace etendue::testing {
 namespace {
 
-namespace fs = std::filesystem;
-
 bool vectorised() { return mitsuba() != nullptr && !mitsuba()->variant.starts_with("scalar"); }
 
 // Rows of numbers that plugin_values.py prints.

@@ -127,7 +127,7 @@ TEST(MitsubaLobes, AbsorptionIsBeersLaw) {
 
 // Each lobe on its own: shown exactly, shown with a rest that has a number, or lost as in our pictures.
 TEST(MitsubaLobes, EachIsShownOrLost) {
-  const auto rest_of = [](Material m) { return mitsuba::shown_lobes(m, -1).losses; };
+  const auto rest_of = [](const Material& m) { return mitsuba::shown_lobes(m, -1).losses; };
   Material m = dielectric();
   m.blended = true;
   EXPECT_TRUE(rest_of(m).empty());
