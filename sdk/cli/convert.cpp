@@ -114,7 +114,9 @@ Json to_json(const MaterialChange& change, const Scene& scene) {
   return {{"name", scene.materials[change.material].name},
           {"texels", change.texels},
           {"core", reader(change.core)},
-          {"full", reader(change.full)}};
+          {"full", reader(change.full)},
+          {"metal_variation", change.metal_variation},
+          {"metal_variation_of_best", change.metal_variation_of_best}};
 }
 
 void convert_one(Converted& job, const Options& options, Size size, Progress* progress) {

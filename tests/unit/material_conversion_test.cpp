@@ -163,6 +163,23 @@ Scene textured(const Folder& folder, std::uint32_t diffuse_side, std::uint32_t s
   return scene;
 }
 
+// A dielectric and a metal that drift, with a step of noise: their metal masks have some play.
+Scene drifting(const Folder& folder, std::uint32_t side) {
+  std::mt19937 random(11);
+  Scene scene = textured(folder, 4, 4);
+  const auto noisy = [&random](double middle) {
+    return static_cast<std::uint16_t>(std::lround(middle) + static_cast<long>(random() % 3) - 1);
+  };
+  const auto metal_at = [=](std::uint32_t x) { return 2 * x > side; };
+  scene.images[0].file = write_png(folder, "drifting_diffuse.png", side, side, 3,
+                                   [&](auto x, auto y, int c) { return noisy(metal_at(x) ? 20 + 0.2 * y : 90 + 30 * c + 0.5 * y); });
+  scene.images[1].file = write_png(folder, "drifting_specular.png", side, side, 4, [&](auto x, auto y, int c) {
+    return noisy(c == 3 ? 128 : metal_at(x) ? 160 + 20 * c + 0.3 * y : 56 + 0.1 * y);
+  });
+  scene.materials[0].model = SpecularGlossiness{{1, 1, 1}, {1, 1, 1}, 1};
+  return scene;
+}
+
 struct Read {
   ColourPair core, full;
   double roughness, alpha;
@@ -212,7 +229,7 @@ TEST(ConvertMaterials, TexturesSayWhatTheyDidInTheFullReader) {
 
 TEST(ConvertMaterials, ThreadsChangeNothing) {
   const Folder folder;
-  Scene one = textured(folder, 100, 100), three = one;
+  Scene one = drifting(folder, 100), three = one;
   ASSERT_TRUE(convert_materials(one, {MaterialModel::metal_rough, 8, folder.path() / "one", 1, nullptr}));
   ASSERT_TRUE(convert_materials(three, {MaterialModel::metal_rough, 8, folder.path() / "three", 3, nullptr}));
   ASSERT_EQ(one.images.size(), three.images.size());
@@ -221,6 +238,37 @@ TEST(ConvertMaterials, ThreadsChangeNothing) {
     ASSERT_TRUE(a && b);
     EXPECT_EQ(a->rgba, b->rgba);
   }
+}
+
+// Within what half a step of 8 bits is worth, h = 1/510: each reader's error is at most sqrt(r^2 + h^2), r that of the best masks.
+TEST(ConvertMaterials, TheMetalMaskIsCalmAtNoPrice) {
+  const Folder folder;
+  Scene scene = drifting(folder, 96);
+  const auto done = convert_materials(scene, {MaterialModel::metal_rough, 8, folder.path() / "new", 2, nullptr});
+  ASSERT_TRUE(done);
+  const MaterialChange& change = done->changes[0];
+  EXPECT_GT(change.metal_variation_of_best, 0);
+  EXPECT_LT(change.metal_variation, 0.9 * change.metal_variation_of_best);
+
+  // 16 bits leave next to no play: they are the best masks.
+  Scene exact = drifting(folder, 96);
+  const auto best = convert_materials(exact, {MaterialModel::metal_rough, 16, folder.path() / "exact", 2, nullptr});
+  ASSERT_TRUE(best);
+  const auto rms = [](const ReaderDeviation& d) { return std::sqrt((d.diffuse.rms * d.diffuse.rms + d.f0.rms * d.f0.rms) / 2); };
+  constexpr double h = 1.0 / 510;
+  // Rounding to 8 bits on top: an rms of .0013 at most (steps of .0045 at the mean of these colours, over sqrt 12).
+  EXPECT_LT(rms(change.core), std::hypot(std::hypot(rms(best->changes[0].core), h), 1.3e-3));
+  EXPECT_LT(rms(change.full), std::hypot(std::hypot(rms(best->changes[0].full), h / std::sqrt(1000.0)), 1.3e-3));
+
+  // The report is of what the file holds.
+  const auto mask = decode(scene.images[scene.materials[0].metal_rough_texture->image], Encoding::linear);
+  ASSERT_TRUE(mask);
+  double sum = 0;
+  const auto at = [&](std::uint32_t x, std::uint32_t y) { return static_cast<double>(mask->rgba[(std::size_t{y} * 96 + x) * 4 + 2]); };
+  for (std::uint32_t y = 0; y < 96; ++y)
+    for (std::uint32_t x = 0; x < 96; ++x)
+      sum += (x > 0 ? std::abs(at(x, y) - at(x - 1, y)) : 0) + (y > 0 ? std::abs(at(x, y) - at(x, y - 1)) : 0);
+  EXPECT_NEAR(change.metal_variation, sum / (2 * 96 * 95), 1e-7);
 }
 
 TEST(ConvertMaterials, ASmallPictureIsLookedUpForALargeOne) {
@@ -305,6 +353,61 @@ TEST(ConvertMaterials, BadPicturesAreLocatedErrors) {
     ASSERT_FALSE(found);
     EXPECT_EQ(found.error().code, "PICTURE_UNSUITABLE");
     EXPECT_NE(found.error().text.find("(5, 2)"), std::string::npos) << found.error().text;
+  }
+}
+
+// One channel, two, three, four and five: grey stands for the colours, a second or fourth channel is alpha, further ones are not looked at.
+TEST(ConvertMaterials, AnyNumberOfChannelsIsRead) {
+  for (const int channels : {1, 2, 3, 4, 5}) {
+    const Folder folder;
+    Scene scene = textured(folder, 8, 8);
+    const auto file = folder.path() / "channels.tif";
+    const auto output = OIIO::ImageOutput::create("tif");
+    ASSERT_TRUE(output && output->open(file.string(), OIIO::ImageSpec(8, 8, channels, OIIO::TypeDesc::UINT8)));
+    std::vector<std::uint8_t> codes(std::size_t{64} * static_cast<std::size_t>(channels), 55);
+    ASSERT_TRUE(output->write_image(OIIO::TypeDesc::UINT8, codes.data()) && output->close());
+    scene.images[1].file = file.string();
+    const auto done = convert_materials(scene, {MaterialModel::metal_rough, 8, folder.path() / "new", 1, nullptr});
+    ASSERT_TRUE(done) << done.error().text;
+    const Material& material = scene.materials[0];
+    const double roughness = material.metal_rough_texture
+                                 ? sample(*decode(scene.images[material.metal_rough_texture->image], Encoding::linear), {}, {0.5, 0.5}).g
+                                 : std::get<MetalRough>(material.model).roughness;
+    // Glossiness is alpha: 55/255 or 1, times .7.
+    EXPECT_NEAR(roughness, 1 - 0.7 * (channels == 2 || channels >= 4 ? 55.0 / 255 : 1), 0.51 / 255) << channels;
+  }
+}
+
+TEST(ConvertMaterials, OneTexelAndManyGiveTheFactorsOfOneTexel) {
+  const Folder folder;
+  Scene scene = textured(folder, 64, 1);
+  const auto done = convert_materials(scene, {MaterialModel::metal_rough, 8, folder.path() / "new", 2, nullptr});
+  ASSERT_TRUE(done);
+  EXPECT_EQ(done->changes[0].texels, 64u * 64u);
+  // One glossiness everywhere: at most the metal mask needs a picture.
+  const auto& texture = scene.materials[0].metal_rough_texture;
+  if (!texture) return;
+  const auto picture = decode(scene.images[texture->image], Encoding::linear);
+  ASSERT_TRUE(picture);
+  for (std::size_t i = 0; i < picture->rgba.size(); i += 4) EXPECT_EQ(picture->rgba[i + 1], picture->rgba[1]);
+}
+
+// glTF's factors are 0 to 1; others are held to what can be stored, and the report says by how much they differ.
+TEST(ConvertMaterials, AbsurdFactorsGiveFiniteResults) {
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double factor : {1e300, -5.0, inf, nan}) {
+    const Folder folder;
+    Scene scene = textured(folder, 8, 8);
+    scene.materials[0].model = SpecularGlossiness{{factor, 1, 1}, {1, factor, 1}, factor};
+    const auto done = convert_materials(scene, {MaterialModel::metal_rough, 8, folder.path() / "new", 1, nullptr});
+    ASSERT_TRUE(done) << done.error().text;
+    const auto& model = std::get<MetalRough>(scene.materials[0].model);
+    for (const double x : {model.base_colour.x, model.base_colour.y, model.metallic, model.roughness}) {
+      EXPECT_GE(x, 0) << factor;
+      EXPECT_LE(x, 1) << factor;
+    }
+    EXPECT_TRUE(std::isfinite(done->changes[0].full.diffuse.rms)) << factor;
+    EXPECT_TRUE(std::isfinite(done->changes[0].metal_variation)) << factor;
   }
 }
 

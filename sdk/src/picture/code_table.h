@@ -3,6 +3,8 @@
 
 #include "etendue/srgb.h"
 
+#include "srgb_encoder.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -20,10 +22,10 @@ class CodeTable {
   }
   double linear(std::uint16_t code) const { return linear_[code]; }
   int top() const { return top_; }
-  // Nearest in linear light. `value` is held within 0..1.
+  // Nearest in linear light. `value` is held within 0..1, NaN counts as 0.
   std::uint16_t nearest(double value) const {
-    const double held = std::clamp(value, 0.0, 1.0);
-    const int code = static_cast<int>(std::lround((srgb_ ? std::min(linear_to_srgb(held), 1.0) : held) * top_));
+    const double held = value > 0 ? std::min(value, 1.0) : 0.0;
+    const int code = static_cast<int>((srgb_ ? SrgbEncoder::get()(held) : held) * top_ + 0.5);
     int best = code;
     for (const int other : {code - 1, code + 1})
       if (other >= 0 && other <= top_ && distance(other, held) < distance(best, held)) best = other;

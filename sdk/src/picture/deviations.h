@@ -2,7 +2,8 @@
 #pragma once
 
 #include "etendue/material_conversion.h"
-#include "etendue/srgb.h"
+
+#include "srgb_encoder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,7 @@ class DeviationSums {
     }
     Deviation deviation() const { return {count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0, max}; }
   };
-  static double steps(double a, double b) { return 255 * (linear_to_srgb(a) - linear_to_srgb(b)); }
+  static double steps(double a, double b) { return 255 * (SrgbEncoder::get()(a) - SrgbEncoder::get()(b)); }
 
   Sum diffuse_, f0_, diffuse_steps_, f0_steps_;
 };

@@ -1,5 +1,6 @@
 #include "image_rows.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -8,18 +9,21 @@
 namespace etendue {
 namespace {
 
-template <class Code>
-void spread(const std::uint8_t* bytes, std::size_t channels, const std::vector<float>& colour, const std::vector<float>& alpha,
-            std::span<float> rgba) {
+template <class Number>
+Number number_at(const std::uint8_t* bytes, std::size_t index) {
+  Number number;
+  std::memcpy(&number, bytes + index * sizeof(Number), sizeof(Number));
+  return number;
+}
+
+// Red, green, blue and alpha of the texels' numbers: grey stands for all colours, a second or fourth channel is alpha.
+template <class Number, class Colour, class Alpha>
+void spread(const std::uint8_t* bytes, std::size_t channels, Colour colour, Alpha alpha, std::span<float> rgba) {
   const bool has_alpha = channels == 2 || channels >= 4;
-  const auto code_at = [&](std::size_t i) {
-    Code code;
-    std::memcpy(&code, bytes + i * sizeof(Code), sizeof(Code));
-    return code;
-  };
+  const std::size_t step = channels < 3 ? 0 : 1, alpha_at = channels == 2 ? 1 : 3;
   for (std::size_t i = 0; i < rgba.size() / 4; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) rgba[i * 4 + c] = colour[code_at(i * channels + (channels < 3 ? 0 : c))];
-    rgba[i * 4 + 3] = has_alpha ? alpha[code_at(i * channels + (channels == 2 ? 1 : 3))] : 1.0f;
+    for (std::size_t c = 0; c < 3; ++c) rgba[i * 4 + c] = colour(number_at<Number>(bytes, i * channels + c * step));
+    rgba[i * 4 + 3] = has_alpha ? alpha(number_at<Number>(bytes, i * channels + alpha_at)) : 1.0f;
   }
 }
 
@@ -43,49 +47,67 @@ Result<ImageRows> ImageRows::open(const ImageRef& image, Encoding encoding, std:
   return rows;
 }
 
-Status ImageRows::read(std::uint32_t rows, std::span<float> rgba) {
+OIIO::TypeDesc ImageRows::code_type() const { return coded() ? file_.spec.format : OIIO::TypeDesc(OIIO::TypeDesc::FLOAT); }
+
+Status ImageRows::read_codes(std::uint32_t rows, std::vector<std::uint8_t>& codes) {
   OIIO::ImageInput& input = *file_.input;
   const OIIO::ImageSpec& spec = file_.spec;
-  const bool coded = !colour_of_code_.empty();
-  const OIIO::TypeDesc type = coded ? spec.format : OIIO::TypeDesc(OIIO::TypeDesc::FLOAT);
-  const auto channels = static_cast<std::size_t>(spec.nchannels);
-  const std::size_t pixels = std::size_t{rows} * width();
-  bytes_.resize(pixels * channels * type.size());
-  const int begin = spec.y + static_cast<int>(next_), end = begin + static_cast<int>(rows);
-  const bool tiled = spec.tile_width > 0;
-  const bool read = tiled ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, 0, 1, 0, spec.nchannels, type, bytes_.data())
-                          : input.read_scanlines(0, 0, begin, end, 0, 0, spec.nchannels, type, bytes_.data());
-  if (!read) return unreadable(image_, input.geterror());
-  const std::span<float> out = rgba.first(pixels * 4);
-  if (spec.format == OIIO::TypeDesc::UINT8 && coded) {
-    spread<std::uint8_t>(bytes_.data(), channels, colour_of_code_, alpha_of_code_, out);
-  } else if (coded) {
-    spread<std::uint16_t>(bytes_.data(), channels, colour_of_code_, alpha_of_code_, out);
-  } else {
-    const bool alpha = has_alpha();
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const auto value = [&](std::size_t channel) {
-        float number;
-        std::memcpy(&number, bytes_.data() + (i * channels + channel) * sizeof(float), sizeof(float));
-        return number;
-      };
-      for (std::size_t c = 0; c < 3; ++c) {
-        const float v = value(channels < 3 ? 0 : c);
-        out[i * 4 + c] = file_.srgb ? static_cast<float>(srgb_to_linear(static_cast<double>(v))) : v;
-      }
-      out[i * 4 + 3] = alpha ? value(channels == 2 ? 1 : 3) : 1.0f;
-      for (std::size_t c = 0; c < 4; ++c) {
-        if (!std::isfinite(out[i * 4 + c]))
-          return Error{"PICTURE_UNSUITABLE",
-                       "expected finite numbers, found another one at pixel (" + std::to_string(i % width()) + ", " +
-                           std::to_string(next_ + i / width()) + ")",
-                       {shown_name(image_), 0, 0, {}},
-                       {},
-                       {}};
-      }
-    }
+  const std::size_t row_bytes = width() * channels() * code_type().size();
+  codes.resize(rows * row_bytes);
+  const std::uint32_t first = next_;
+  if (spec.tile_width == 0) {
+    const int begin = spec.y + static_cast<int>(first), end = begin + static_cast<int>(rows);
+    if (!input.read_scanlines(0, 0, begin, end, 0, 0, spec.nchannels, code_type(), codes.data()))
+      return unreadable(image_, input.geterror());
+    next_ += rows;
   }
-  next_ += rows;
+  // Tiles come a whole row of them at a time.
+  for (; next_ < first + rows; ++next_) {
+    const auto high = static_cast<std::uint32_t>(spec.tile_height), in_tile = next_ % high;
+    if (in_tile == 0 || tile_row_.empty()) {
+      const std::uint32_t top = next_ - in_tile, bottom = std::min(top + high, height());
+      tile_row_.resize((bottom - top) * row_bytes);
+      if (!input.read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + static_cast<int>(top), spec.y + static_cast<int>(bottom), 0, 1, 0,
+                            spec.nchannels, code_type(), tile_row_.data()))
+        return unreadable(image_, input.geterror());
+    }
+    std::copy_n(tile_row_.begin() + static_cast<std::ptrdiff_t>(in_tile * row_bytes), row_bytes,
+                codes.begin() + static_cast<std::ptrdiff_t>((next_ - first) * row_bytes));
+  }
+  return coded() ? Status(Done{}) : check_finite(codes, first);
+}
+
+Status ImageRows::check_finite(std::span<const std::uint8_t> numbers, std::uint32_t first_row) const {
+  for (std::size_t i = 0; i < numbers.size() / sizeof(float); ++i) {
+    if (std::isfinite(number_at<float>(numbers.data(), i))) continue;
+    const std::size_t pixel = i / channels();
+    return Error{"PICTURE_UNSUITABLE",
+                 "expected finite numbers, found another one at pixel (" + std::to_string(pixel % width()) + ", " +
+                     std::to_string(first_row + pixel / width()) + ")",
+                 {shown_name(image_), 0, 0, {}},
+                 {},
+                 {}};
+  }
+  return Done{};
+}
+
+void ImageRows::to_linear(std::span<const std::uint8_t> codes, std::span<float> rgba) const {
+  const auto colour = [&](auto code) { return colour_of_code_[code]; };
+  const auto alpha = [&](auto code) { return alpha_of_code_[code]; };
+  if (code_type() == OIIO::TypeDesc::UINT8) {
+    spread<std::uint8_t>(codes.data(), channels(), colour, alpha, rgba);
+  } else if (coded()) {
+    spread<std::uint16_t>(codes.data(), channels(), colour, alpha, rgba);
+  } else {
+    const auto decoded = [&](float v) { return file_.srgb ? static_cast<float>(srgb_to_linear(static_cast<double>(v))) : v; };
+    spread<float>(
+        codes.data(), channels(), decoded, [](float v) { return v; }, rgba);
+  }
+}
+
+Status ImageRows::read(std::uint32_t rows, std::span<float> rgba) {
+  if (Status read = read_codes(rows, codes_); !read) return read;
+  to_linear(codes_, rgba.first(std::size_t{rows} * width() * 4));
   return Done{};
 }
 

@@ -6,36 +6,17 @@
 #include <span>
 
 #include "etendue/material_conversion.h"
+#include "metal_rough_colours.h"
 
 namespace etendue {
 namespace {
-
-constexpr double core_f0 = 0.04;
-constexpr double as_good = 6e-8;  // 6 x (1e-4)^2
-
-double squared(const ColourPair& a, const ColourPair& b) {
-  double sum = 0;
-  for (int c = 0; c < 3; ++c) {
-    const double diffuse = a.diffuse[c] - b.diffuse[c], f0 = a.f0[c] - b.f0[c];
-    sum += diffuse * diffuse + f0 * f0;
-  }
-  return sum;
-}
-
-// fit_disney's rule: within the range of half floats, NaN counts as 0.
-double held(double x) { return std::isnan(x) ? 0 : std::clamp(x, -65504.0, 65504.0); }
-ColourPair held(const ColourPair& pair) {
-  ColourPair out;
-  for (int c = 0; c < 3; ++c) out.diffuse[c] = held(pair.diffuse[c]), out.f0[c] = held(pair.f0[c]);
-  return out;
-}
 
 ColourPair pair_with(const MetalRoughColours& m, const Rgb& k) { return {m.base * (1 - m.metal), k * (1 - m.metal) + m.base * m.metal}; }
 
 }  // namespace
 
 double metal_rough_cost(const MetalRoughColours& colours, const ColourPair& pair, double weight) {
-  return squared(in_core_reader(colours), pair) + weight * squared(in_full_reader(colours), pair);
+  return costs_of_held(colours, pair).sum(weight);
 }
 
 double full_reader_limit(int bits) { return bits == 8 ? 1e-3 : 1e-4; }
@@ -43,23 +24,8 @@ double full_reader_limit(int bits) { return bits == 8 ? 1e-3 : 1e-4; }
 ColourPair in_core_reader(const MetalRoughColours& colours) { return pair_with(colours, {core_f0, core_f0, core_f0}); }
 ColourPair in_full_reader(const MetalRoughColours& colours) { return pair_with(colours, colours.dielectric_f0); }
 
-// For a given m each channel stands alone. Where k is free the full reader's f0 is exact, and what is left is
-//   (1 + w) ((1 - m) b - d)^2 + (m b - g)^2,  g = f - .04 (1 - m),  w the weight,
-// a parabola in b. Where its least b asks for a k = (f - m b) / (1 - m) below 0 or above 1, k stands at that end and f0's difference in the
-// full reader comes in: + w (m b - (f - (1 - m) k))^2. The least over k is convex in b, so that b is held within [0, 1] by clamping.
-MetalRoughColours metal_rough_at(double metal, const ColourPair& given, double weight) {
-  const ColourPair pair = held(given);
-  MetalRoughColours out;
-  const double m = out.metal = std::clamp(held(metal), 0.0, 1.0), left = 1 - m, w = weight;
-  for (int c = 0; c < 3; ++c) {
-    const double d = pair.diffuse[c], f = pair.f0[c];
-    const double towards = (1 + w) * left * d + m * (f - core_f0 * left), across = (1 + w) * left * left + m * m;
-    const double base = towards / across, k = left > 0 ? (f - m * base) / left : f - m * base;
-    const double end = k > 0 ? 1 : 0, bound = k < 0 || k > 1 || left == 0 ? w : 0;
-    out.base[c] = std::clamp((towards + bound * m * (f - left * end)) / (across + bound * m * m), 0.0, 1.0);
-    out.dielectric_f0[c] = left > 0 ? std::clamp((f - m * out.base[c]) / left, 0.0, 1.0) : core_f0;
-  }
-  return out;
+MetalRoughColours metal_rough_at(double metal, const ColourPair& pair, double weight) {
+  return metal_rough_of_held(std::clamp(held(metal), 0.0, 1.0), held(pair), weight);
 }
 
 namespace {
@@ -98,7 +64,7 @@ class Kinks {
 // and the middles between these, in steps that halve.
 MaskCost best_mask(const ColourPair& pair, double weight) {
   const auto consider = [&](MaskCost& best, double m) {
-    const double cost = metal_rough_cost(metal_rough_at(m, pair, weight), pair, weight);
+    const double cost = costs_of_held(metal_rough_of_held(m, pair, weight), pair).sum(weight);
     if (cost < best.cost) best = {m, cost};
   };
   const auto refine = [&](MaskCost& best, double width) {
@@ -131,7 +97,7 @@ MetalRoughColours metal_rough_of(const ColourPair& given, double weight) {
   const MaskCost best = best_mask(pair, weight);
   for (const double binary : {0.0, 1.0}) {
     const MetalRoughColours colours = metal_rough_at(binary, pair, weight);
-    if (metal_rough_cost(colours, pair, weight) <= best.cost + as_good) return colours;
+    if (metal_rough_cost(colours, pair, weight) <= best.cost + equal_costs) return colours;
   }
   return metal_rough_at(best.metal, pair, weight);
 }

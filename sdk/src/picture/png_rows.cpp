@@ -20,7 +20,10 @@ Result<PngRows> PngRows::open(const std::filesystem::path& file, std::uint32_t w
   OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), channels,
                        bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16);
   spec["oiio:UnassociatedAlpha"] = 1;
-  spec["png:compressionLevel"] = 4;  // of 9: a tenth larger than 6, in half its time
+  // Of 9 levels and 5 filters: on the corpus' pictures files are a tenth larger than with 6 and the best filter of each row, in a fifth of
+  // the time.
+  spec["png:compressionLevel"] = 2;
+  spec["png:filter"] = 0x10;  // each sample minus the one of the texel to its left
   if (!rows.output_->open(file.string(), spec)) return unwritable(file, rows.output_->geterror());
   return rows;
 }

@@ -1,6 +1,8 @@
 #include "stored_metal_rough.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "deviations.h"
@@ -25,42 +27,88 @@ void StoredMetalRough::fit(std::span<const ColourPair> samples) {
 
 double StoredMetalRough::full_rms(std::span<const ColourPair> samples) const {
   DeviationSums sums;
-  for (const ColourPair& pair : samples) sums.add((*this)(pair).full, pair);
+  for (const ColourPair& pair : samples) sums.add(read(best_of(pair).codes, pair).full, pair);
   return rms_of(sums.deviation());
 }
 
-TexelValue StoredMetalRough::operator()(const ColourPair& pair) const {
-  const double metal = metal_rough_of(pair, weight_).metal * mask_.top();
-  const int first = std::max(static_cast<int>(std::floor(metal)) - further_codes_, 0);
-  const int last = std::min(static_cast<int>(std::ceil(metal)) + further_codes_, mask_.top());
-  TexelValue best;
-  double least = std::numeric_limits<double>::infinity();
-  for (int code = first; code <= last; ++code) {
-    TexelValue value;
-    const double cost = metal_rough_cost(store(static_cast<std::uint16_t>(code), pair, value), pair, weight_);
-    if (!(cost < least)) continue;
-    least = cost;
-    best = value;
-  }
-  return best;
-}
-
-MetalRoughColours StoredMetalRough::store(std::uint16_t metal, const ColourPair& pair, TexelValue& out) const {
-  MetalRoughColours stored = metal_rough_at(mask_.linear(metal), pair, weight_);
-  out.codes[3] = metal;
+// Each of base colour and dielectric f0 is chosen for what the others are once stored.
+StoredMetalRough::Candidate StoredMetalRough::at(std::uint16_t metal_code, const ColourPair& pair) const {
+  MetalRoughColours stored = metal_rough_of_held(mask_.linear(metal_code), pair, weight_);
+  Candidate out;
+  out.codes[metal] = metal_code;
+  const double left = 1 - stored.metal, per_left = left > 0 ? 1 / left : 0;
   for (int c = 0; c < 3; ++c) {
     const auto channel = static_cast<std::size_t>(c);
     stored.base[c] = colour_.linear(out.codes[channel] = colour_.nearest(stored.base[c]));
-    const double left = 1 - stored.metal, largest = largest_k_[c];
     // Where it has no effect: at metals, and where no texel has any.
-    const double k = left > 0 && largest > 0 ? (pair.f0[c] - stored.metal * stored.base[c]) / left / largest : 1;
-    out.codes[4 + channel] = colour_.nearest(k);
-    stored.dielectric_f0[c] = largest * colour_.linear(out.codes[4 + channel]);
+    const double k = left > 0 && largest_k_[c] > 0 ? (pair.f0[c] - stored.metal * stored.base[c]) * per_left / largest_k_[c] : 1;
+    out.codes[dielectric + channel] = colour_.nearest(k);
+    stored.dielectric_f0[c] = largest_k_[c] * colour_.linear(out.codes[dielectric + channel]);
   }
-  out.wanted = pair;
-  out.core = in_core_reader(stored);
-  out.full = in_full_reader(stored);
-  return stored;
+  out.cost = costs_of_held(stored, pair).sum(weight_);
+  return out;
+}
+
+// Before rounding, which costs more than the tolerance and a different sum at each mask, by chance. A dielectric f0 beyond what is stored
+// is no choice.
+bool StoredMetalRough::is_as_good(std::uint16_t metal_code, const ColourPair& pair, const CostLimits& limits) const {
+  const MetalRoughColours colours = metal_rough_of_held(mask_.linear(metal_code), pair, weight_);
+  const ReaderCosts costs = costs_of_held(colours, pair);
+  if (costs.core > static_cast<double>(limits.core) || costs.full > static_cast<double>(limits.full)) return false;
+  const Rgb& k = colours.dielectric_f0;
+  return colours.metal == 1 || (k.x <= largest_k_.x && k.y <= largest_k_.y && k.z <= largest_k_.z);
+}
+
+StoredMetalRough::Choice StoredMetalRough::best_of(const ColourPair& pair) const {
+  const MetalRoughColours ideal = metal_rough_of(pair, weight_);
+  const double place = ideal.metal * mask_.top();
+  const int first = std::max(static_cast<int>(std::floor(place)) - further_codes_, 0);
+  const int last = std::min(static_cast<int>(std::ceil(place)) + further_codes_, mask_.top());
+  Candidate best;
+  best.cost = std::numeric_limits<double>::infinity();
+  for (int code = first; code <= last; ++code)
+    if (const Candidate other = at(static_cast<std::uint16_t>(code), pair); other.cost < best.cost) best = other;
+
+  // 6 h^2, h half a step; a full reader has less to give, unless nobody asks for it.
+  const double half_step = 0.5 / mask_.top(), play = std::max(6 * half_step * half_step, equal_costs);
+  const ReaderCosts costs = costs_of_held(ideal, pair);
+  const CostLimits limits{static_cast<float>(costs.core + play), static_cast<float>(costs.full + (weight_ < 1 ? play : play / 1000))};
+  const auto top = static_cast<std::uint16_t>(mask_.top());
+  const std::uint16_t own = best.codes[metal];
+  const auto may_be = [&](std::uint16_t code) { return own == code || is_as_good(code, pair, limits); };
+  best.codes[binary] = may_be(0) ? std::uint16_t{0} : may_be(top) ? top : own;
+  return {best.codes, limits};
+}
+
+// The whole way if that is as good; else in steps that grow twofold as long as the masks are as good, then shrink to the last one that is.
+// Along the way the cost has one valley, and what it does beyond the first mask that is too dear is of no interest.
+StoredMetalRough::Codes StoredMetalRough::towards(std::uint16_t wanted, const Choice& choice, const ColourPair& pair) const {
+  const int from = choice.codes[metal], way = std::abs(wanted - from), sign = wanted > from ? 1 : -1;
+  const auto code_at = [&](int gone) { return static_cast<std::uint16_t>(from + sign * gone); };
+  int gone = 0;
+  const auto try_step = [&](int step) {
+    const bool good = is_as_good(code_at(gone + step), pair, choice.limits);
+    if (good) gone += step;
+    return good;
+  };
+  if (way > 0 && !try_step(way)) {
+    int step = 1;
+    while (gone + step < way && try_step(step)) step *= 2;
+    for (step /= 2; step > 0; step /= 2)
+      if (gone + step < way) try_step(step);
+  }
+  return gone > 0 ? at(code_at(gone), pair).codes : choice.codes;
+}
+
+TexelValue StoredMetalRough::read(const Codes& codes, const ColourPair& pair) const {
+  MetalRoughColours stored;
+  stored.metal = mask_.linear(codes[metal]);
+  for (int c = 0; c < 3; ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    stored.base[c] = colour_.linear(codes[channel]);
+    stored.dielectric_f0[c] = largest_k_[c] * colour_.linear(codes[dielectric + channel]);
+  }
+  return {codes, pair, in_core_reader(stored), in_full_reader(stored), {}};
 }
 
 }  // namespace etendue

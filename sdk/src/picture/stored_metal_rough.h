@@ -2,16 +2,24 @@
 #pragma once
 
 #include "code_table.h"
-#include "etendue/material_conversion.h"
+#include "metal_rough_colours.h"
 #include "texel_cache.h"
 
+#include <cstdint>
 #include <span>
 
 namespace etendue {
 
-// The best of what can be stored: metal masks on both sides of the best one, with the base colour and dielectric f0 for each.
 class StoredMetalRough {
  public:
+  using Codes = std::array<std::uint16_t, 8>;
+  // What they are: 0-2 base colour, 3 metal mask, 4-6 dielectric f0 over its largest, 7 the mask that is binary if possible.
+  static constexpr std::size_t metal = 3, dielectric = 4, binary = 7;
+  struct Choice {
+    Codes codes{};
+    CostLimits limits;  // for other masks
+  };
+
   // `largest_k`: of the dielectric part's f0, which is stored as a share of it. Serves a core-only reader until fit() is called.
   StoredMetalRough(int bits, const Rgb& largest_k);
 
@@ -19,16 +27,25 @@ class StoredMetalRough {
   // the best mask are too few for that (a bright surface: steps of 8-bit sRGB near 1 are .009), six are tried.
   void fit(std::span<const ColourPair> samples);
 
-  // Codes: 0-2 base colour, 3 metal, 4-6 dielectric f0 over its largest.
-  TexelValue operator()(const ColourPair& pair) const;
+  // The best one of the codes on both sides of the best mask, by what is stored. Codes [binary]: 0 or else 1 where that is as good.
+  Choice best_of(const ColourPair& pair) const;
+  // Of masks that are as good the one nearest to `wanted`, on the way there from the best one.
+  Codes towards(std::uint16_t wanted, const Choice& choice, const ColourPair& pair) const;
+  // What readers make of codes.
+  TexelValue read(const Codes& codes, const ColourPair& pair) const;
 
   double weight() const { return weight_; }
   const CodeTable& colour() const { return colour_; }
   const CodeTable& mask() const { return mask_; }
 
  private:
-  MetalRoughColours store(std::uint16_t metal, const ColourPair& pair, TexelValue& out) const;
+  struct Candidate {
+    Codes codes{};
+    double cost = 0;
+  };
+  Candidate at(std::uint16_t metal, const ColourPair& pair) const;
   double full_rms(std::span<const ColourPair> samples) const;
+  bool is_as_good(std::uint16_t metal, const ColourPair& pair, const CostLimits& limits) const;
 
   int bits_;
   CodeTable colour_, mask_;

@@ -1,11 +1,14 @@
 // A material's textures in the other model, texel by texel.
 #pragma once
 
+#include "code_table.h"
 #include "deviations.h"
 #include "etendue/material_conversion.h"
+#include "texel_cache.h"
+#include "texture_output.h"
+#include "texture_rows.h"
 
 #include <optional>
-
 #include <string>
 #include <vector>
 
@@ -13,6 +16,10 @@ namespace etendue {
 
 // KHR_materials_specular and _ior of a metallic-roughness material: min(((n - 1) / (n + 1))^2 colour, 1) factor.
 Rgb dielectric_f0_of(const Material& material, const MetalRough& model);
+
+inline Rgb product(const Rgb& a, const Rgb& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+inline Rgb rgb_at(const TexelKey& key, std::size_t first) { return {key[first], key[first + 1], key[first + 2]}; }
+inline const Texture* pointer_to(const std::optional<Texture>& texture) { return texture ? &*texture : nullptr; }
 
 // Converts what has textures; materials with the same textures and factors get the same new ones.
 class TextureConversion {
@@ -30,7 +37,12 @@ class TextureConversion {
   };
   const Converted* known(const Material& material) const;
   std::optional<Texture> new_texture(const Texture& like, const std::filesystem::path& file, const std::string& name, Encoding encoding);
+  Result<TextureRows> open_rows(const TextureRows::Textures& textures);
   Status make_folder() const;
+  Status open_all(std::vector<TextureOutput>& outputs, const TextureRows& rows) const;
+  static Status close_all(std::vector<TextureOutput>& outputs);
+  static Rgb constant_colour(const TextureOutput& output, const CodeTable& table);
+  void report_repeats(const Material& material, const TextureRows& rows);
 
   Scene& scene_;
   const ConversionOptions& options_;
