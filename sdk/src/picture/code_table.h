@@ -25,7 +25,7 @@ class CodeTable {
   // Nearest in linear light. `value` is held within 0..1, NaN counts as 0.
   std::uint16_t nearest(double value) const {
     const double held = value > 0 ? std::min(value, 1.0) : 0.0;
-    const int code = static_cast<int>((srgb_ ? SrgbEncoder::get()(held) : held) * top_ + 0.5);
+    const int code = static_cast<int>(std::lround((srgb_ ? SrgbEncoder::get()(held) : held) * top_));
     int best = code;
     for (const int other : {code - 1, code + 1})
       if (other >= 0 && other <= top_ && distance(other, held) < distance(best, held)) best = other;

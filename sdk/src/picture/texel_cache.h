@@ -4,8 +4,8 @@
 #include "etendue/material_fit.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,7 +13,9 @@
 namespace etendue {
 
 using TexelKey = std::array<float, 8>;
-inline bool same_numbers(const TexelKey& a, const TexelKey& b) { return std::memcmp(a.data(), b.data(), sizeof(TexelKey)) == 0; }
+// Their bits.
+inline std::array<std::uint64_t, 4> words_of(const TexelKey& key) { return std::bit_cast<std::array<std::uint64_t, 4>>(key); }
+inline bool same_numbers(const TexelKey& a, const TexelKey& b) { return words_of(a) == words_of(b); }
 
 // What other codes may cost a core-only reader and a full one.
 struct CostLimits {
@@ -94,11 +96,8 @@ class TexelCache {
  private:
   // Over the numbers' bits, two at a time: multiplied, and the high half folded into the low one, which it would not reach.
   std::size_t hash(const TexelKey& key) const {
-    std::array<std::uint64_t, 4> words;
-    static_assert(sizeof(words) == sizeof(key));
-    std::memcpy(words.data(), key.data(), sizeof(words));
     std::uint64_t h = 0xcbf29ce484222325u;
-    for (const std::uint64_t word : words) {
+    for (const std::uint64_t word : words_of(key)) {
       h = (h ^ word) * 0x9e3779b97f4a7c15u;
       h ^= h >> 32;
     }

@@ -144,9 +144,9 @@ Result<MaterialChange> TextureConversion::to_metal_rough(Material& material) {
   change.texels = std::uint64_t{rows->width()} * rows->height();
   material.fallback.reset();
   material.specular_gloss_texture.reset();
-  const auto specular_lobe = [&](const Rgb& f0, std::optional<Texture> texture) {
+  const auto specular_lobe = [&](const Rgb& f0, const std::optional<Texture>& texture) {
     const bool plain_f0 = f0 == Rgb{core_f0, core_f0, core_f0} && !texture;
-    material.lobes.specular = plain_f0 ? std::nullopt : std::optional(Specular{1, f0 * (1 / core_f0), {}, std::move(texture)});
+    material.lobes.specular = plain_f0 ? std::nullopt : std::optional(Specular{1, f0 * (1 / core_f0), {}, texture});
   };
   // One specular colour for all texels, and no metal would bring a core-only reader closer: the diffuse picture stays as it is, its factor
   // takes 1 - max(specular), and a full reader loses nothing.
