@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "all_materials.h"
 #include "etendue/material_check.h"
 #include "etendue/picture_write.h"
 #include "limits.h"
@@ -42,10 +43,15 @@ int run_check(const Common& common, const Options& options) {
   const std::filesystem::path folder = options.views;
   if (!options.views.empty() && !options.force && std::filesystem::exists(folder))
     return session.fail({"USAGE", fmt::format("{} is there already", options.views), {}, "--force writes into it", {}});
-  ImportOptions import = options.import;
-  import.need = Need::materials | Need::images;
-  const Result<Imported> imported = read_asset(session, options.asset, import);
+  const Result<Imported> imported = read_all_materials(options.asset, options.import);
   if (!imported) return session.fail(imported.error());
+  session.diagnostics.append(imported->diagnostics);
+  const auto& read = imported->stats;
+  session.stats = {{"bytes_read", read.bytes_read},
+                   {"skipped_bytes", read.skipped_bytes},
+                   {"images_decoded", read.images_decoded},
+                   {"skipped_meshes", read.skipped_meshes},
+                   {"skipped_images", read.skipped_images}};
   if (imported->diagnostics.has_errors()) return session.finish(exit_bad_input);
   const Scene& scene = imported->scene;
   if (!options.views.empty()) {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "importers/gltf/gltf.h"
+#include "all_materials.h"
 #include "importers/rig/fields.h"
 #include "json_text.h"
 
@@ -20,9 +20,7 @@ namespace fs = std::filesystem;
 class StackReader {
  public:
   StackReader(Session& session, const fs::path& file, const ImportOptions& options)
-      : session_(session), folder_(file.parent_path()), options_(options) {
-    options_.need = Need::materials | Need::images;
-  }
+      : session_(session), folder_(file.parent_path()), options_(options) {}
 
   LayerStack read(JsonValue root) {
     Diagnostics& d = session_.diagnostics;
@@ -94,13 +92,7 @@ class StackReader {
   // Read once, or nullptr.
   const Asset* asset_of(const std::string& name, JsonValue at) {
     if (const auto known = assets_.find(name); known != assets_.end()) return &known->second;
-    const fs::path file = folder_ / name;
-    const auto importer = importers().importer_for(file);
-    if (!importer) return refuse(at, importer.error());
-    // A library of materials need not show them in a scene.
-    static const std::unique_ptr<Importer> all_materials = make_gltf_importer(GltfMaterials::all);
-    const bool is_gltf = (*importer)->describe().id == all_materials->describe().id;
-    Result<Imported> imported = (is_gltf ? all_materials.get() : *importer)->read(file, options_);
+    Result<Imported> imported = read_all_materials(folder_ / name, options_);
     if (!imported) return refuse(at, imported.error());
     session_.diagnostics.append(imported->diagnostics);
     if (imported->diagnostics.has_errors()) return nullptr;
@@ -117,7 +109,7 @@ class StackReader {
 
   Session& session_;
   fs::path folder_;
-  ImportOptions options_;
+  const ImportOptions& options_;
   LayerStack stack_;
   std::map<std::string, Asset> assets_;
 };
