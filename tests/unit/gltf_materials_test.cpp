@@ -32,6 +32,23 @@ Material read_material(const char* text, Diagnostics& diagnostics) {
   return imported->scene.materials[0];
 }
 
+// The mesh carries the coordinates of what pictures of ours show; of a lobe's texture where there is nothing else.
+TEST(GltfMaterials, CoordinatesOfALobesTexture) {
+  const char* const coat = R"("extensions": {"KHR_materials_clearcoat": {"clearcoatTexture": {"index": 0, "texCoord": 1}}})";
+  const std::string alone = std::string("{") + coat + "}";
+  const std::string beside = std::string(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 1}}, )") + coat + "}";
+  for (const bool coloured : {false, true}) {
+    GltfBuilder gltf = painted((coloured ? beside : alone).c_str());
+    gltf.primitive()["attributes"]["TEXCOORD_1"] = gltf.floats({0.5, 0, 1, 0, 0, 1}, "VEC2");
+    const Folder folder;
+    const auto imported = read_gltf(gltf, folder);
+    ASSERT_TRUE(imported.ok());
+    EXPECT_FALSE(imported->diagnostics.has_errors()) << all_text(imported->diagnostics);
+    ASSERT_EQ(imported->scene.meshes[0].uvs.size(), 3u);
+    EXPECT_EQ(imported->scene.meshes[0].uvs[0].x, coloured ? 0.0f : 0.5f);
+  }
+}
+
 TEST(GltfMaterials, SpecularGlossinessWithItsFallback) {
   Diagnostics diagnostics;
   const Material m = read_material(R"({"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0,

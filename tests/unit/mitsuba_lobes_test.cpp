@@ -166,6 +166,20 @@ TEST(MitsubaLobes, EachIsShownOrLost) {
   EXPECT_EQ(rest_of(m)[0].effect, unshown_losses(m)[0].effect);
 }
 
+// A mesh has one set of coordinates: a lobe with a texture on another one is left out.
+TEST(MitsubaLobes, OneSetOfCoordinates) {
+  Material m = dielectric();
+  m.lobes.transmission = Transmission{1, Texture{}};
+  EXPECT_EQ(mitsuba::shown_lobes(m, -1).passed, 1);
+  m.lobes.transmission->factor_texture->uv_set = 1;
+  EXPECT_EQ(mitsuba::shown_lobes(m, -1).passed, 1) << "nothing else has a texture";
+  m.base_colour_texture = Texture{};
+  const ShownLobes shown = mitsuba::shown_lobes(m, -1);
+  EXPECT_EQ(shown.passed, 0);
+  ASSERT_EQ(shown.losses.size(), 1u);
+  EXPECT_EQ(shown.losses[0].effect, unshown_losses(m)[0].effect);
+}
+
 // What `validate` compares with has no lobes, what `convert` writes has.
 TEST(MitsubaLobes, OnlyWhereAskedFor) {
   const fs::path folder = fs::temp_directory_path() / ("etendue-lobes-" + std::to_string(::getpid()));
