@@ -39,6 +39,7 @@ struct Surface {
     constexpr int sides = 128;
     const double radius = s.radius * std::sqrt(2 * pi / sides / std::sin(2 * pi / sides));
     std::vector<Vec2d> points;
+    points.reserve(sides);
     for (int i = 0; i < sides; ++i) points.push_back({radius * std::cos(2 * pi * i / sides), radius * std::sin(2 * pi * i / sides)});
     return flat(points);
   }

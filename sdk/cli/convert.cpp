@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cctype>
 #include <filesystem>
 #include <mutex>
 #include <thread>
 
 #include "comparison_text.h"
+#include "etendue/conversion_views.h"
 #include "etendue/material_conversion.h"
+#include "etendue/picture_write.h"
 
 #include "exporters/eulumdat/eulumdat.h"
 #include "exporters/gltf/gltf.h"
@@ -25,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string in, out, to, loss, size = "512x512", camera, lights, mute, materials, readers = "all";
+  std::string in, out, to, loss, size = "512x512", camera, lights, mute, materials, readers = "all", views;
   ImportOptions import;
   int depth = 2, bits = 8;
   unsigned samples = 1024, jobs = 1;
@@ -119,6 +122,33 @@ Json to_json(const MaterialChange& change, const Scene& scene) {
           {"metal_variation_of_best", change.metal_variation_of_best}};
 }
 
+// The picture of where a material has changed most, and its place beside the numbers of job.materials' last.
+Status show_worst(Converted& job, const Options& options, const Scene& before, const Scene& after, std::uint32_t material) {
+  const Material& is = after.materials[material];
+  const auto view = conversion_view(before, before.materials[material], after, is, options.import.max_pixels);
+  if (!view) return view.error();
+  std::string safe;
+  for (const char c : is.name) safe += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
+  const fs::path file = fs::path(options.views) /
+                        fmt::format("{}_{:02}_{}.png", job.out.stem().string(), material, safe.empty() ? "material" : safe.substr(0, 60));
+  std::error_code made;
+  fs::create_directories(options.views, made);
+  if (made) return Error{"FILE_UNWRITABLE", "cannot make the folder: " + made.message(), {options.views, 0, 0, {}}, {}, {}};
+  if (Status written = write_png(view->picture, file); !written) return written;
+  Json worst = Json::array();
+  for (const WorstRegion& region : view->regions)
+    worst.push_back({{"reader", region.reader},
+                     {"x", region.x},
+                     {"y", region.y},
+                     {"width", region.width},
+                     {"height", region.height},
+                     {"rms", region.rms},
+                     {"max", region.max}});
+  job.materials.back()["view"] = file.string();
+  job.materials.back()["worst_regions"] = std::move(worst);
+  return Done{};
+}
+
 void convert_one(Converted& job, const Options& options, Size size, Progress* progress) {
   if (fs::exists(job.out) && !options.force) {
     job.error = Error{"USAGE", fmt::format("{} is there already", job.out.string()), {}, "--force replaces it", {}};
@@ -150,11 +180,16 @@ void convert_one(Converted& job, const Options& options, Size size, Progress* pr
   }
   const TextureFolder textures(job.out, exporter->describe().id == "rig");
   if (model) {
+    const Scene before = options.views.empty() ? Scene{} : imported->scene;
     auto conversion = convert_materials(imported->scene, {*model, options.bits, textures.path(), options.jobs > 1 ? 1u : 0u, progress,
                                                           options.readers == "core" ? Readers::core : Readers::all});
     if (!conversion) return void(job.error = conversion.error());
     job.losses = std::move(conversion->losses);
-    for (const MaterialChange& change : conversion->changes) job.materials.push_back(to_json(change, imported->scene));
+    for (const MaterialChange& change : conversion->changes) {
+      job.materials.push_back(to_json(change, imported->scene));
+      if (options.views.empty()) continue;
+      if (Status shown = show_worst(job, options, before, imported->scene, change.material); !shown) return void(job.error = shown.error());
+    }
   }
   const auto chosen = export_options(imported->scene, options, size);
   if (!chosen) return void(job.error = chosen.error());
@@ -235,6 +270,15 @@ int run_convert(const Common& common, const Options& options) {
       session.print(fmt::format("{}: {} file{}, {} loss{}", job.out.string(), job.files.size(), job.files.size() == 1 ? "" : "s",
                                 job.losses.losses.size(), job.losses.losses.size() == 1 ? "" : "es"));
       for (const std::string& line : grouped(job.losses.losses)) session.print(fmt::format("  lost: {}", line));
+      for (const Json& material : job.materials) {
+        if (!material.contains("view")) continue;
+        session.print(fmt::format("  {}", material["view"].get<std::string>()));
+        for (const Json& region : material["worst_regions"])
+          session.print(fmt::format("    {}-reader: {} x {} texels from ({}, {}): rms {:.2e}, at most {:.2e}, which is palest",
+                                    region["reader"].get<std::string>(), region["width"].get<int>(), region["height"].get<int>(),
+                                    region["x"].get<int>(), region["y"].get<int>(), region["rms"].get<double>(),
+                                    region["max"].get<double>()));
+      }
     }
     session.result.push_back(std::move(item));
   }
@@ -271,6 +315,11 @@ void add_convert(CLI::App& app, const Common& common, Run& run) {
       ->capture_default_str()
       ->check(CLI::IsMember({"all", "core"}));
   verb->add_option("--bits", options->bits, "Of a channel of new textures: 8 or 16")->capture_default_str()->check(CLI::IsMember({8, 16}));
+  verb->add_option(
+          "--views", options->views,
+          "With --materials: folder for a PNG a material, of where it has changed most for core-only readers (above) and for those of "
+          "KHR_materials_specular (below): diffuse before and after, f0 before and after, the error in false colours")
+      ->needs("--materials");
   verb->add_flag(
       "--emissive-shapes", options->emissive_shapes,
       "Into glTF: a mesh that emits its luminance beside each light with a surface, where the format itself has points and spots");
@@ -279,7 +328,7 @@ void add_convert(CLI::App& app, const Common& common, Run& run) {
   verb->footer(
       "\nExamples:\n  etendue convert kitchen.rig.json kitchen.xml\n  etendue convert glass.glb glass.xml --depth 8\n  "
       "etendue convert chair.glb chair_mr.glb --materials metal-rough\n  "
-      "etendue convert chair.glb chair_core.glb --materials metal-rough --readers core --bits 16\n  "
+      "etendue convert chair.glb chair_core.glb --materials metal-rough --readers core --bits 16 --views worst\n  "
       "etendue convert kitchen.rig.json kitchen.glb --emissive-shapes\n  "
       "etendue convert assets/ scenes/ --to .xml --jobs 4 --loss "
       "losses.json");

@@ -90,22 +90,21 @@ def bounds(d, f, share, limit, bits):
     """The least rms of a core-only reader that any file can have whose full reader's rms is within the limit, and the least of files with
     textures of so many bits. By duality: whatever the weight, the mean of least E_core + weight (E_full - 6 limit^2) is below the mean of
     E_core of every such file. The weight that makes the most of it is looked for on some of the pairs, since any one gives a bound."""
-    few = np.random.default_rng(1).choice(len(d), min(len(d), 3000), replace=False, p=share)
+    few = np.random.default_rng(1).choice(len(d), min(len(d), 1000), replace=False, p=share)
     part = share[few] / share[few].sum()
 
     def value(found, of, weight):
         return float(np.sqrt(max(((found[0] + weight * (found[1] - 6 * limit * limit)) * of).sum() / 6, 0)))
 
-    def best_weight(function, *rest):
-        weights = 10.0 ** np.arange(0, 7.1, 0.5)
+    def best_weight(weights, function, *rest):
         values = [value(function(d[few], f[few], w, *rest), part, w) for w in weights]
         return weights[int(np.argmax(values))]
 
-    w = best_weight(search)
+    w = best_weight(10.0 ** np.arange(0, 7.1, 0.25), search)
     any_file = value(in_parts(search, d, f, w), share, w)
     if bits > 8:
         return any_file, any_file
-    w = best_weight(of_codes, 255)
+    w = best_weight(w * 10.0 ** np.array([-0.5, -0.25, 0, 0.25]), of_codes, 255)
     return any_file, value(in_parts(of_codes, d, f, w, 255), share, w)
 
 
