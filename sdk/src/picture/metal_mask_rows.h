@@ -61,20 +61,27 @@ class MetalMaskRows {
   const StoredMetalRough::Choice& at(std::uint32_t x, std::uint32_t y) const { return choices_[index(x, y)]; }
   const std::uint16_t* best_row(std::uint32_t y) const { return best_.data() + index(0, y); }
 
-  // The mask that a texel shall come near to: 0 or 1 if all around it can be that, else the middle one of the best of the nine around it,
-  // those beyond the border being the nearest inside. A smaller `reach` would let binary masks come and go like the noise that they hide.
-  std::uint16_t wanted(std::uint32_t x, std::uint32_t y) const {
-    const std::uint16_t binary = binary_[index(x, y)];
-    bool all = binary != neither;
-    for (std::uint32_t row = y - std::min(y, reach); all && row <= std::min(y + reach, height_ - 1); ++row)
-      all = binary_[index(x, row)] == binary;
-    if (all) return binary;
-    std::array<std::uint16_t, 9> nine;
-    std::size_t i = 0;
-    for (const std::uint32_t row : {y > 0 ? y - 1 : y, y, std::min(y + 1, height_ - 1)})
-      for (const std::uint32_t column : {x > 0 ? x - 1 : x, x, std::min(x + 1, width_ - 1)}) nine[i++] = best_[index(column, row)];
-    std::nth_element(nine.begin(), nine.begin() + 4, nine.end());
-    return nine[4];
+  // The masks that a row's texels shall come near to: 0 or 1 if all around one can be that, else the middle one of the best of the nine
+  // around it, those beyond the border being the nearest inside. A smaller `reach` would let binary masks come and go like the noise that
+  // they hide.
+  void wanted_row(std::uint32_t y, std::vector<std::uint16_t>& out) const {
+    const std::uint16_t* const middle = binary_.data() + index(0, y);
+    out.assign(middle, middle + width_);
+    for (std::uint32_t other = y - std::min(y, reach); other <= std::min(y + reach, height_ - 1); ++other) {
+      const std::uint16_t* const row = binary_.data() + index(0, other);
+      for (std::uint32_t x = 0; x < width_; ++x) out[x] = row[x] == middle[x] ? out[x] : neither;
+    }
+    const std::array<const std::uint16_t*, 3> rows{best_row(y > 0 ? y - 1 : y), best_row(y), best_row(std::min(y + 1, height_ - 1))};
+    for (std::uint32_t x = 0; x < width_; ++x) {
+      if (out[x] != neither) continue;
+      std::array<std::uint16_t, 9> nine;
+      std::size_t i = 0;
+      for (const std::uint16_t* row : rows)
+        for (const std::uint32_t column : {x > 0 ? x - 1 : x, x, std::min(x + 1, width_ - 1)}) nine[i++] = row[column];
+      if (std::any_of(nine.begin(), nine.end(), [&](std::uint16_t code) { return code != nine[0]; }))
+        std::nth_element(nine.begin(), nine.begin() + 4, nine.end());
+      out[x] = nine[4];
+    }
   }
 
  private:

@@ -64,7 +64,7 @@ class Kinks {
 // and the middles between these, in steps that halve.
 MaskCost best_mask(const ColourPair& pair, double weight) {
   const auto consider = [&](MaskCost& best, double m) {
-    const double cost = costs_of_held(metal_rough_of_held(m, pair, weight), pair).sum(weight);
+    const double cost = least_cost_of_held(m, pair, weight);
     if (cost < best.cost) best = {m, cost};
   };
   const auto refine = [&](MaskCost& best, double width) {

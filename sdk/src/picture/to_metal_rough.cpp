@@ -42,6 +42,7 @@ struct Worker {
   Sums sums;
   Rgb largest_k{0, 0, 0};
   MaskVariation best;
+  std::vector<std::uint16_t> wanted;  // masks of a row
 };
 
 // From texels to pairs of colours.
@@ -192,9 +193,10 @@ Result<MaterialChange> TextureConversion::to_metal_rough(Material& material) {
   };
   work.row = [&](const TextureRows::Row& row) {
     Worker& worker = workers[row.thread];
+    masks.wanted_row(row.y, worker.wanted);
     for (std::uint32_t x = 0; x < rows->width(); ++x) {
       const StoredMetalRough::Choice& choice = masks.at(x, row.y);
-      const std::uint16_t wanted = masks.wanted(x, row.y);
+      const std::uint16_t wanted = worker.wanted[x];
       TexelKey key = key_at(row, x);
       key[6] = static_cast<float>(wanted);
       const auto find = [&](const TexelKey& texel) {
