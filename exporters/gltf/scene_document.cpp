@@ -88,7 +88,9 @@ class SceneWriter {
     Material standing_in;
     standing_in.name = "default";
     standing_in.model = Lambert{};
-    json_["materials"].push_back(surface_of(index == no_index ? standing_in : scene_.materials[index], textures_, built_.losses));
+    // Made first: it adds textures to the document, which moves the document's members.
+    Json made = surface_of(index == no_index ? standing_in : scene_.materials[index], textures_, built_.losses);
+    json_["materials"].push_back(std::move(made));
     return materials_[index] = json_["materials"].size() - 1;
   }
 

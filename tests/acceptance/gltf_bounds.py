@@ -38,24 +38,42 @@ def errors(b, m, d, f):
     return diffuse + (CORE * left + m * b - f) ** 2, diffuse + (k * left + m * b - f) ** 2
 
 
+def kinks(d, f):
+    """Masks where a bound of the full reader's exact solution begins to hold, and the middles between them: with s = 1 - m it is b = d / s and
+    k = (f - m b) / s, within its bounds while s >= d, m <= f / (f + d) and s^2 - (f + d) s + d >= 0. The valleys of large weights lie there."""
+    half = (f + d) / 2
+    square = half * half - d
+    root = np.sqrt(np.maximum(square, 0))
+    both = np.where(square > 0, 1 - half - root, 0), np.where(square > 0, 1 - half + root, 0)
+    found = np.sort(np.clip(np.concatenate([1 - d, f / np.maximum(f + d, 1e-300), *both], 1), 0, 1), 1)
+    return np.concatenate([found, (found[:, 1:] + found[:, :-1]) / 2, found[:, :1] / 2], 1)
+
+
 def search(d, f, weight):
-    """E_core and E_full where E_core + weight E_full is least: 193 masks, and the neighbourhood of the best one in finer steps, twice."""
-    best, found = np.full(len(d), np.inf), np.zeros((3, len(d)))
+    """E_core and E_full where E_core + weight E_full is least: from the best of 129 masks and from the best kink, in steps that halve."""
 
-    def consider(m):
-        nonlocal best, found
-        core, full = (e.sum(1) for e in errors(best_base(m, d, f, weight), m, d, f))
-        better = core + weight * full < best
-        best = np.where(better, core + weight * full, best)
-        found = np.where(better, np.stack([core, full, m]), found)
+    def least(masks, width):
+        best, found = np.full(len(d), np.inf), np.zeros((3, len(d)))
 
-    for m in np.linspace(0, 1, 193):
-        consider(np.full(len(d), m))
-    for width in (1 / 192, 1 / 1536):
-        middle = found[2].copy()
-        for step in np.linspace(-width, width, 17):
-            consider(np.clip(middle + step, 0, 1))
-    return found[0], found[1]
+        def consider(m):
+            nonlocal best, found
+            core, full = (e.sum(1) for e in errors(best_base(m, d, f, weight), m, d, f))
+            better = core + weight * full < best
+            best = np.where(better, core + weight * full, best)
+            found = np.where(better, np.stack([core, full, m]), found)
+
+        for m in masks:
+            consider(m)
+        for _ in range(14):
+            middle = found[2].copy()
+            consider(np.clip(middle - width, 0, 1))
+            consider(np.clip(middle + width, 0, 1))
+            width /= 2
+        return best, found
+
+    grid, of_grid = least([np.full(len(d), m) for m in np.linspace(0, 1, 129)], 1 / 256)
+    places, of_places = least(list(kinks(d, f).T), 1 / 256)
+    return tuple(np.where(places < grid, of_places, of_grid)[:2])
 
 
 def of_codes(d, f, weight, top):

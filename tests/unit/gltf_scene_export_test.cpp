@@ -149,6 +149,40 @@ TEST(GltfScene, CamerasObjectsAndMaterialsComeBack) {
   EXPECT_EQ(found("plaster").lobes.specular->factor, 0);
 }
 
+TEST(GltfScene, TexturesComeBackWithTheirMaterials) {
+  const Folder folder;
+  const auto png = test::png();
+  Scene scene;
+  scene.images.push_back({folder.write("wood.png", std::string(png.begin(), png.end())).string(), {}, "", "wood"});
+  for (const char* name : {"plain", "board"}) {
+    Material material;
+    material.name = name;
+    material.model = MetalRough{{0.5, 0.4, 0.3}, 0, 0.7, 1.5};
+    scene.materials.push_back(material);
+    scene.objects.push_back({name, PlaneGeometry{1}, static_cast<std::uint32_t>(scene.objects.size()), {}, ""});
+  }
+  Texture texture{0, Encoding::srgb, Wrap::clamp, Wrap::mirror, true};
+  texture.uv_transform[0][0] = 0;
+  texture.uv_transform[0][1] = -2;
+  texture.uv_transform[0][2] = 0.25;
+  texture.uv_transform[1][0] = 3;
+  texture.uv_transform[1][1] = 0;
+  scene.materials[1].base_colour_texture = texture;
+  for (const char* name : {"out.glb", "out.gltf"}) {
+    const Back back = there_and_back(scene, folder.path() / "there" / name);
+    EXPECT_TRUE(back.losses.losses.empty());
+    ASSERT_EQ(back.scene.materials.size(), 2u);
+    EXPECT_FALSE(back.scene.materials[0].base_colour_texture);
+    ASSERT_TRUE(back.scene.materials[1].base_colour_texture);
+    const Texture& found = *back.scene.materials[1].base_colour_texture;
+    EXPECT_EQ(found.wrap_u, Wrap::clamp);
+    EXPECT_EQ(found.wrap_v, Wrap::mirror);
+    EXPECT_TRUE(found.nearest);
+    for (int row = 0; row < 2; ++row)
+      for (int column = 0; column < 3; ++column) EXPECT_NEAR(found.uv_transform[row][column], texture.uv_transform[row][column], 1e-12);
+  }
+}
+
 // The nearest spot of a flat light has its flux and its intensity along the axis; the nearest point of a sphere its intensity.
 TEST(GltfScene, AreaLightsKeepTheirFluxAndTheirAxis) {
   const Folder folder;
