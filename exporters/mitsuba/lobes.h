@@ -33,7 +33,7 @@ struct ShownLobes {
 
   bool transmits() const { return diffused > 0 || passed > 0; }
 };
-// `max_depth`: of the path, Mitsuba's.
+// `max_depth`: Mitsuba's, of the path; -1 has no end.
 ShownLobes shown_lobes(const Material& material, int max_depth);
 // Its absorption_per_m alone.
 std::optional<Rgb> absorption_of(const Material& material);
