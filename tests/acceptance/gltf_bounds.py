@@ -79,8 +79,7 @@ def search(d, f, weight):
 def of_codes(d, f, weight, top):
     """The same over what textures of that many codes can hold without factors (k is left free, which can only lower it). E_full's least over
     k is convex in b, and so is the sum: of the codes the best is one beside the best b."""
-    table = np.arange(top + 1) / top
-    table = np.where(table <= 0.04045, table / 12.92, ((table + 0.055) / 1.055) ** 2.4)
+    table = linear(np.arange(top + 1) / top)
     best, found = np.full(len(d), np.inf), np.zeros((2, len(d)))
     for code in range(top + 1):
         m = np.full(len(d), code / top)
@@ -126,11 +125,12 @@ def bounds(d, f, share, limit, bits):
     return any_file, value(in_parts(of_codes, d, f, w, 255), share, w)
 
 
-def closed_form(d, f):
+def closed_form(d, f, bits):
     """Khronos' reference converter (glTF repository, extensions/2.0/Archived/KHR_materials_pbrSpecularGlossiness/examples), by its published
     formula: the metal mask from the brightness of both colours as a root of a quadratic equation, the base colour between what diffuse and
     specular say, by the mask's square. Its dielectrics lose .04 of the diffuse colour, which today's glTF no longer says: with and without
-    that factor, to be measured by the better one. Pairs of (diffuse, f0) as a reader sees them."""
+    that factor, to be measured by the better one. Pairs of (diffuse, f0) as a reader sees them in textures of so many bits."""
+    top = 2 ** bits - 1
     strength = 1 - f.max(1)
     diffuse = d / np.maximum(strength, 1e-300)[:, None]  # the extension's own diffuse colour
     weights = np.array([0.299, 0.587, 0.114])
@@ -138,8 +138,19 @@ def closed_form(d, f):
     b, c = bright_d * strength / (1 - CORE) + bright_f - 2 * CORE, CORE - bright_f
     root = np.sqrt(np.maximum(b * b - 4 * CORE * c, 0))
     m = np.where(bright_f < CORE, 0, np.clip((-b + root) / (2 * CORE), 0, 1))[:, None]
+    stored = np.rint(m * top) / top
     for factor in (1 - CORE, 1.0):
         of_diffuse = diffuse * strength[:, None] / factor / np.maximum(1 - m, 1e-6)
         of_specular = (f - CORE * (1 - m)) / np.maximum(m, 1e-6)
         base = np.clip(of_diffuse + (of_specular - of_diffuse) * m * m, 0, 1)
-        yield (1 - m) * base, CORE * (1 - m) + m * base
+        base = linear(np.rint(encoded(base) * top) / top)
+        yield (1 - stored) * base, CORE * (1 - stored) + stored * base
+
+
+def encoded(x):
+    """sRGB's transfer function."""
+    return np.where(x <= 0.0031308, 12.92 * x, 1.055 * np.maximum(x, 1e-9) ** (1 / 2.4) - 0.055)
+
+
+def linear(code):
+    return np.where(code <= 0.04045, code / 12.92, ((code + 0.055) / 1.055) ** 2.4)

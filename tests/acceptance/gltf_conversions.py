@@ -79,26 +79,29 @@ class Part:
         distinct, f0, share = gltf_bounds.weighted((d, f))
         best = gltf_bounds.core_optimum(distinct, f0, share)
         print("\n%s: %d texels, %d distinct\n  %-66s %10s %10s" % (name, len(d), len(share), "rms over diffuse and f0, linear", "core-only", "full"))
-        rivals = {}
 
         def row(title, core, full):
             print("  %-66s %10.3e %10.3e" % (title, core, full), flush=True)
             return core, full
 
         row("optimum with f0 = .04 for dielectrics, not rounded", best, best)
-        lowest = min(gltf_bounds.rms_of(sum(((a - b) ** 2).sum(1) for a, b in zip(pair, (distinct, f0))), share)
-                     for pair in gltf_bounds.closed_form(distinct, f0))
-        rivals["closed form"] = row("Khronos' closed form, not rounded", lowest, lowest)
+        rivals_of = {bits: {} for bits in LIMITS}
+        for bits, rivals in rivals_of.items():
+            lowest = min(gltf_bounds.rms_of(sum(((a - b) ** 2).sum(1) for a, b in zip(pair, (distinct, f0))), share)
+                         for pair in gltf_bounds.closed_form(distinct, f0, bits))
+            rivals["closed form"] = row("Khronos' closed form, %d bits" % bits, lowest, lowest)
         if theirs is not None:
             twin = theirs.document["materials"][index]
-            rivals["glTF-Transform"] = row("glTF-Transform metalrough", *(rms(metal(theirs, twin, full)[:2], (d, f)) for full in (False, True)))
+            of_8_bits = row("glTF-Transform metalrough", *(rms(metal(theirs, twin, full)[:2], (d, f)) for full in (False, True)))
+            for rivals in rivals_of.values():
+                rivals["glTF-Transform"] = of_8_bits
         found = {}
         for (bits, readers), (asset, _) in ours.items():
             new = asset.document["materials"][index]
             found[bits, readers] = row("etendue, %d bits, --readers %s" % (bits, readers),
                                        *(rms(metal(asset, new, full)[:2], (d, f)) for full in (False, True)))
         for (bits, readers), (core, full) in found.items():
-            title = "  %d bits, --readers %s: " % (bits, readers)
+            title, rivals = "  %d bits, --readers %s: " % (bits, readers), rivals_of[bits]
             if readers == "core":
                 self.figure(title + "core-only rms over the optimum", core / best if best > EXACT else core / EXACT, 1.02)
                 self.figure(title + "core-only rms over the lowest of the others", core / max(min(r[0] for r in rivals.values()), EXACT), 1)

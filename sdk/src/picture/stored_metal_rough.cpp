@@ -69,8 +69,8 @@ StoredMetalRough::Choice StoredMetalRough::best_of(const ColourPair& pair) const
   for (int code = first; code <= last; ++code)
     if (const Candidate other = at(static_cast<std::uint16_t>(code), pair); other.cost < best.cost) best = other;
 
-  // 6 h^2, h half a step; a full reader has less to give, unless nobody asks for it.
-  const double half_step = 0.5 / mask_.top(), play = std::max(6 * half_step * half_step, equal_costs);
+  // 6 h^2, h half a step; a full reader has less to give, unless nobody asks for it, and nothing where codes were searched for its limit.
+  const double half_step = 0.5 / mask_.top(), play = further_codes_ > 0 ? 0 : std::max(6 * half_step * half_step, equal_costs);
   const ReaderCosts costs = costs_of_held(ideal, pair);
   const CostLimits limits{static_cast<float>(costs.core + play), static_cast<float>(costs.full + (weight_ < 1 ? play : play / 1000))};
   const auto top = static_cast<std::uint16_t>(mask_.top());
