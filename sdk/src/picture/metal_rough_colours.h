@@ -57,22 +57,8 @@ inline ReaderCosts costs_of_held(const MetalRoughColours& colours, const ColourP
   return {diffuse + core, diffuse + full};
 }
 
-// metal_rough_cost() of metal_rough_of_held(), for searches: k s, s = 1 - m, stands for k.
-inline double least_cost_of_held(double m, const ColourPair& pair, double w) {
-  const double s = 1 - m, across = (1 + w) * s * s + m * m, per_across = 1 / across;
-  double core = 0, full = 0;
-  for (int c = 0; c < 3; ++c) {
-    const double d = pair.diffuse[c], f = pair.f0[c], towards = (1 + w) * s * d + m * (f - core_f0 * s);
-    double base = towards * per_across;
-    const double ks = f - m * base;
-    if (ks < 0 || ks > s || s == 0) base = (towards + w * m * (f - (ks > 0 ? s : 0))) / (across + w * m * m);
-    base = std::clamp(base, 0.0, 1.0);
-    const double diffuse = s * base - d, rest = m * base - f, in_core = s * core_f0 + rest;
-    const double in_full = rest + (s > 0 ? std::clamp(-rest, 0.0, s) : 0.0);
-    core += diffuse * diffuse + in_core * in_core;
-    full += diffuse * diffuse + in_full * in_full;
-  }
-  return core + w * full;
-}
+// metal_rough_of() of a pair that is held, whose best mask is known.
+struct MaskCost;
+MetalRoughColours metal_rough_with(const MaskCost& best, const ColourPair& pair, double weight);
 
 }  // namespace etendue

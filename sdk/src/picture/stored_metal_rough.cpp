@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "best_masks.h"
 #include "deviations.h"
 #include "reader_weight.h"
 
@@ -26,8 +27,10 @@ void StoredMetalRough::fit(std::span<const ColourPair> samples) {
 }
 
 double StoredMetalRough::full_rms(std::span<const ColourPair> samples) const {
+  std::vector<Choice> choices;
+  best_of(samples, choices);
   DeviationSums sums;
-  for (const ColourPair& pair : samples) sums.add(read(best_of(pair).codes, pair).full, pair);
+  for (std::size_t i = 0; i < samples.size(); ++i) sums.add(read(choices[i].codes, samples[i]).full, samples[i]);
   return rms_of(sums.deviation());
 }
 
@@ -59,8 +62,14 @@ bool StoredMetalRough::is_as_good(std::uint16_t metal_code, const ColourPair& pa
   return colours.metal == 1 || (k.x <= largest_k_.x && k.y <= largest_k_.y && k.z <= largest_k_.z);
 }
 
-StoredMetalRough::Choice StoredMetalRough::best_of(const ColourPair& pair) const {
-  const MetalRoughColours ideal = metal_rough_of(pair, weight_);
+void StoredMetalRough::best_of(std::span<const ColourPair> pairs, std::vector<Choice>& out) const {
+  std::vector<MaskCost> masks(pairs.size());
+  best_masks(pairs, weight_, masks);
+  out.resize(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) out[i] = best_beside(metal_rough_with(masks[i], pairs[i], weight_), pairs[i]);
+}
+
+StoredMetalRough::Choice StoredMetalRough::best_beside(const MetalRoughColours& ideal, const ColourPair& pair) const {
   const double place = ideal.metal * mask_.top();
   const int first = std::max(static_cast<int>(std::floor(place)) - further_codes_, 0);
   const int last = std::min(static_cast<int>(std::ceil(place)) + further_codes_, mask_.top());

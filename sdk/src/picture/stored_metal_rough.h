@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace etendue {
 
@@ -27,8 +28,9 @@ class StoredMetalRough {
   // the best mask are too few for that (a bright surface: steps of 8-bit sRGB near 1 are .009), six are tried.
   void fit(std::span<const ColourPair> samples);
 
-  // The best one of the codes on both sides of the best mask, by what is stored. Codes [binary]: 0 or else 1 where that is as good.
-  Choice best_of(const ColourPair& pair) const;
+  // Of each pair the best one of the codes on both sides of the best mask, by what is stored. Codes [binary]: 0 or else 1 where that is as
+  // good.
+  void best_of(std::span<const ColourPair> pairs, std::vector<Choice>& out) const;
   // Of masks that are as good the one nearest to `wanted`, on the way there from the best one.
   Codes towards(std::uint16_t wanted, const Choice& choice, const ColourPair& pair) const;
   // What readers make of codes.
@@ -43,6 +45,7 @@ class StoredMetalRough {
     Codes codes{};
     double cost = 0;
   };
+  Choice best_beside(const MetalRoughColours& ideal, const ColourPair& pair) const;
   Candidate at(std::uint16_t metal, const ColourPair& pair) const;
   double full_rms(std::span<const ColourPair> samples) const;
   bool is_as_good(std::uint16_t metal, const ColourPair& pair, const CostLimits& limits) const;

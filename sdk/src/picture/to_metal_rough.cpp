@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "best_masks.h"
 #include "metal_mask_rows.h"
 #include "reader_weight.h"
 #include "stored_metal_rough.h"
@@ -43,6 +44,9 @@ struct Worker {
   Rgb largest_k{0, 0, 0};
   MaskVariation best;
   std::vector<std::uint16_t> wanted;  // masks of a row
+  std::vector<ColourPair> pairs;      // that are solved together
+  std::vector<MaskCost> masks;
+  std::vector<StoredMetalRough::Choice> choices;
 };
 
 // From texels to pairs of colours.
@@ -53,6 +57,10 @@ class Pairs {
     const SpecularGlossiness texel{product(rgb_at(key, 0), model_.diffuse), product(rgb_at(key, 3), model_.specular), 1};
     const TwoColour two = two_colour_of(texel);
     return held(ColourPair{two.diffuse, two.f0});
+  }
+  void all(Entries entries, std::vector<ColourPair>& out) const {
+    out.clear();
+    for (const TexelCache::Entry* entry : entries) out.push_back((*this)(entry->key));
   }
 
  private:
@@ -79,10 +87,13 @@ Result<Survey> survey_of(TextureRows& rows, const Pairs& pairs, const Conversion
     Worker& worker = workers[row.thread];
     samples.add_row(row.y, [&](std::uint32_t x) { return pairs(key_at(row, x)); });
     const auto solve = [&](Entries entries) {
-      for (TexelCache::Entry* entry : entries) {
-        TexelValue& value = entry->value;
-        value.wanted = pairs(entry->key);
-        const MetalRoughColours colours = metal_rough_of(value.wanted, weight);
+      pairs.all(entries, worker.pairs);
+      worker.masks.resize(entries.size());
+      best_masks(worker.pairs, weight, worker.masks);
+      for (std::size_t i = 0; i < entries.size(); ++i) {
+        TexelValue& value = entries[i]->value;
+        value.wanted = worker.pairs[i];
+        const MetalRoughColours colours = metal_rough_with(worker.masks[i], value.wanted, weight);
         for (int c = 0; c < 3 && colours.metal < 1; ++c) worker.largest_k[c] = std::max(worker.largest_k[c], colours.dielectric_f0[c]);
         value.core = in_core_reader({value.wanted.diffuse, 0, {}});
       }
@@ -179,10 +190,11 @@ Result<MaterialChange> TextureConversion::to_metal_rough(Material& material) {
     worker.cache.row(
         rows->width(), [&](std::uint32_t x) { return key_at(row, x); },
         [&](Entries entries) {
-          for (TexelCache::Entry* entry : entries) {
-            const StoredMetalRough::Choice choice = stored.best_of(pairs(entry->key));
-            entry->value.codes = choice.codes;
-            entry->value.limits = choice.limits;
+          pairs.all(entries, worker.pairs);
+          stored.best_of(worker.pairs, worker.choices);
+          for (std::size_t i = 0; i < entries.size(); ++i) {
+            entries[i]->value.codes = worker.choices[i].codes;
+            entries[i]->value.limits = worker.choices[i].limits;
           }
         },
         [&](std::uint32_t x, const TexelValue& value) {
