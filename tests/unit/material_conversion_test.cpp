@@ -248,7 +248,8 @@ TEST(ConvertMaterials, TheMetalMaskIsCalmAtNoPrice) {
   ASSERT_TRUE(done);
   const MaterialChange& change = done->changes[0];
   EXPECT_GT(change.metal_variation_of_best, 0);
-  EXPECT_LT(change.metal_variation, 0.9 * change.metal_variation_of_best);
+  // Little, as these colours are so bright that codes are searched for the full reader's limit: a twentieth of its square is left for this.
+  EXPECT_LT(change.metal_variation, 0.95 * change.metal_variation_of_best);
 
   // 16 bits leave next to no play: they are the best masks.
   Scene exact = drifting(folder, 96);

@@ -3,13 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
 #include "best_masks.h"
 #include "deviations.h"
 #include "reader_weight.h"
 
 namespace etendue {
+namespace {
+
+// Where codes are searched to keep the full reader's limit: the part of its square that masks may cost which go with their neighbours'.
+// With what the search aims at it stays within the limit: .97^2 + .05 < 1.
+constexpr double left_for_calm = 0.05;
+
+}  // namespace
 
 StoredMetalRough::StoredMetalRough(int bits, const Rgb& largest_k)
     : bits_(bits), colour_(bits, true), mask_(bits, false), largest_k_(largest_k), weight_(weight_for_core) {}
@@ -48,18 +54,21 @@ StoredMetalRough::Candidate StoredMetalRough::at(std::uint16_t metal_code, const
     out.codes[dielectric + channel] = colour_.nearest(k);
     stored.dielectric_f0[c] = largest_k_[c] * colour_.linear(out.codes[dielectric + channel]);
   }
-  out.cost = costs_of_held(stored, pair).sum(weight_);
+  out.costs = costs_of_held(stored, pair);
   return out;
 }
 
-// Before rounding, which costs more than the tolerance and a different sum at each mask, by chance. A dielectric f0 beyond what is stored
-// is no choice.
+// Before rounding, which costs more than the tolerance and a different sum at each mask, by chance; a dielectric f0 beyond what is stored
+// is no choice. Where codes are searched for the full reader's limit, after it: another mask may not lose what that has gained.
 bool StoredMetalRough::is_as_good(std::uint16_t metal_code, const ColourPair& pair, const CostLimits& limits) const {
+  const auto within = [&](const ReaderCosts& costs) {
+    return costs.core <= static_cast<double>(limits.core) && costs.full <= static_cast<double>(limits.full);
+  };
+  if (further_codes_ > 0) return within(at(metal_code, pair).costs);
   const MetalRoughColours colours = metal_rough_of_held(mask_.linear(metal_code), pair, weight_);
-  const ReaderCosts costs = costs_of_held(colours, pair);
-  if (costs.core > static_cast<double>(limits.core) || costs.full > static_cast<double>(limits.full)) return false;
   const Rgb& k = colours.dielectric_f0;
-  return colours.metal == 1 || (k.x <= largest_k_.x && k.y <= largest_k_.y && k.z <= largest_k_.z);
+  return within(costs_of_held(colours, pair)) &&
+         (colours.metal == 1 || (k.x <= largest_k_.x && k.y <= largest_k_.y && k.z <= largest_k_.z));
 }
 
 void StoredMetalRough::best_of(std::span<const ColourPair> pairs, std::vector<Choice>& out) const {
@@ -73,15 +82,16 @@ StoredMetalRough::Choice StoredMetalRough::best_beside(const MetalRoughColours& 
   const double place = ideal.metal * mask_.top();
   const int first = std::max(static_cast<int>(std::floor(place)) - further_codes_, 0);
   const int last = std::min(static_cast<int>(std::ceil(place)) + further_codes_, mask_.top());
-  Candidate best;
-  best.cost = std::numeric_limits<double>::infinity();
-  for (int code = first; code <= last; ++code)
-    if (const Candidate other = at(static_cast<std::uint16_t>(code), pair); other.cost < best.cost) best = other;
+  Candidate best = at(static_cast<std::uint16_t>(first), pair);
+  for (int code = first + 1; code <= last; ++code)
+    if (const Candidate other = at(static_cast<std::uint16_t>(code), pair); other.costs.sum(weight_) < best.costs.sum(weight_))
+      best = other;
 
-  // 6 h^2, h half a step; a full reader has less to give, unless nobody asks for it, and nothing where codes were searched for its limit.
-  const double half_step = 0.5 / mask_.top(), play = further_codes_ > 0 ? 0 : std::max(6 * half_step * half_step, equal_costs);
-  const ReaderCosts costs = costs_of_held(ideal, pair);
-  const CostLimits limits{static_cast<float>(costs.core + play), static_cast<float>(costs.full + (weight_ < 1 ? play : play / 1000))};
+  // 6 h^2, h half a step; a full reader has less to give, unless nobody asks for it.
+  const double half_step = 0.5 / mask_.top(), play = std::max(6 * half_step * half_step, equal_costs);
+  const ReaderCosts costs = further_codes_ > 0 ? best.costs : costs_of_held(ideal, pair);
+  const double limit = full_reader_limit(bits_), left = further_codes_ > 0 ? left_for_calm * 6 * limit * limit : play / 1000;
+  const CostLimits limits{static_cast<float>(costs.core + play), static_cast<float>(costs.full + (weight_ < 1 ? play : left))};
   const auto top = static_cast<std::uint16_t>(mask_.top());
   const std::uint16_t own = best.codes[metal];
   const auto may_be = [&](std::uint16_t code) { return own == code || is_as_good(code, pair, limits); };

@@ -43,7 +43,7 @@ class StoredMetalRough {
  private:
   struct Candidate {
     Codes codes{};
-    double cost = 0;
+    ReaderCosts costs;
   };
   Choice best_beside(const MetalRoughColours& ideal, const ColourPair& pair) const;
   Candidate at(std::uint16_t metal, const ColourPair& pair) const;
