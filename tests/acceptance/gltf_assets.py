@@ -8,10 +8,19 @@ import numpy as np
 mi.set_variant("scalar_rgb")
 
 
-class Asset:
-    """A document and its pictures."""
+def halved(values):
+    """The next mip level of rows of texels: means of 2 x 2, a row or column that is left over left out."""
+    rows, columns = (max(n // 2 * 2, 1) for n in values.shape[:2])
+    if min(rows, columns) < 2:
+        return values
+    return values[:rows, :columns].reshape(rows // 2, 2, columns // 2, 2, -1).mean((1, 3))
 
-    def __init__(self, file):
+
+class Asset:
+    """A document and its pictures, at a mip level that a reader makes from their linear values."""
+
+    def __init__(self, file, level=0):
+        self.level = level
         self.folder, data = file.parent, file.read_bytes()
         self.binary = b""
         if data[:4] == b"glTF":
@@ -43,6 +52,8 @@ class Asset:
         colour = values[:, :, :3]
         if srgb:
             values[:, :, :3] = np.where(colour <= 0.04045, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
+        for _ in range(self.level):
+            values = halved(values)
         return values
 
     def textured(self, owner, key, srgb, factor):

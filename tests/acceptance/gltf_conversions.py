@@ -9,7 +9,7 @@ import tempfile
 import numpy as np
 
 import gltf_bounds
-from gltf_assets import Asset, gloss, metal, rms
+from gltf_assets import Asset, gloss, halved, metal, rms
 
 HERE = pathlib.Path(__file__).resolve().parent
 LIMITS = {8: 1e-3, 16: 1e-4}  # of a full reader
@@ -71,6 +71,25 @@ class Part:
         for index, material in enumerate(before.document.get("materials", [])):
             if "KHR_materials_pbrSpecularGlossiness" in material.get("extensions", {}):
                 self.rows(file, index, before, theirs, ours)
+                if (8, "all") in ours:
+                    self.mip_levels(file, folder / "glb" / ("%s-8-all.glb" % file.stem), index)
+
+    def mip_levels(self, file, converted, index):
+        """Readers filter what a file stores, products of which are the colours: beside the means of the colours, what the asset itself is off by
+        and what the converted file is."""
+        asset, material = Asset(file), Asset(file).document["materials"][index]
+        e = material["extensions"]["KHR_materials_pbrSpecularGlossiness"]
+        picture = e.get("diffuseTexture") or e.get("specularGlossinessTexture")
+        if picture is None:
+            return
+        shape = asset.pixels(picture, True).shape[:2]
+        colours = [c.reshape(*shape, -1) for c in gloss(asset, material)[:2] if len(c) == shape[0] * shape[1]]
+        for level in (1, 2, 3) if len(colours) == 2 else ():
+            colours = [halved(c) for c in colours]
+            means = [c.reshape(-1, 3) for c in colours]
+            after = Asset(converted, level)
+            print("    mip level %d: full rms beside the means of the colours: the asset %.2e, converted %.2e" % (
+                level, rms(gloss(Asset(file, level), material)[:2], means), rms(metal(after, after.document["materials"][index], True)[:2], means)))
 
     def rows(self, file, index, before, theirs, ours):
         material = before.document["materials"][index]
