@@ -26,7 +26,8 @@ struct Layer {
 // Layers that the SDK writes and reads by name:
 //   ""                       the picture, cd/m2, linear Rec.709
 //   "variance"               variance of each pixel's value (of the mean over seeds, for a reference)
-//   "light.NAME"             one light's part;  "light_variance.NAME" its variance
+//   "variance_bound"         the part of "variance" that bounds an error instead of measuring noise (ours alone; sdk/docs/comparison.md)
+//   "light.NAME"             one light's part;  "light_variance.NAME" its variance, "light_variance_bound.NAME" likewise
 //   "object"                 1 + index of the object at the pixel's centre, 0 for none, -1 - index for a light
 //   "emitter"                1 where the pixel or one beside it touches a visible emitter or the environment, else 0
 //   "depth" "normal" "albedo"  at the centre: distance along the ray in metres (0: none), shading normal, base colour
