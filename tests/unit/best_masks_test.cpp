@@ -34,8 +34,8 @@ std::vector<MaskCost> best_of(const std::vector<ColourPair>& pairs, double weigh
 TEST(BestMasks, TheSameBitsOnEveryInstructionSetAndInAnyCompany) {
   const std::vector<ColourPair> pairs = some_pairs();
   for (const double weight : {0.001, 1.0, 1e3, 1e7}) {
-    std::vector<MaskCost> alone;
-    for (const ColourPair& pair : pairs) alone.push_back(best_of({pair}, weight)[0]);
+    std::vector<MaskCost> alone(pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) alone[i] = best_of({pairs[i]}, weight)[0];
     on_each_instruction_set([&] {
       const std::vector<MaskCost> found = best_of(pairs, weight);
       for (std::size_t i = 0; i < pairs.size(); ++i) {
