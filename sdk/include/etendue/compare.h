@@ -45,8 +45,8 @@ struct Finding {
 struct Comparison {
   Verdict verdict = Verdict::undecided;
   double mean_rel = 0, rms_rel = 0, noise_rms_rel = 0, chi2_per_pixel = 0, bias_z = 0;
-  double chi2_expected =
-      0;  // of noise alone: 1, less where the variance is partly a bound of an error: its float32 sums, our layer "variance_bound"
+  // Of noise alone: 1, less where the variance is partly a bound of an error: its float32 sums, our layer "variance_bound".
+  double chi2_expected = 0;
   std::uint64_t chi2_pixels = 0;  // not black, no emitter: below 1e4 its own spread is wider than [.92, 1.08]
   std::vector<RegionDifference> regions;
   std::vector<Finding> findings;

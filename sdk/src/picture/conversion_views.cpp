@@ -8,26 +8,13 @@
 
 #include "etendue/false_colour.h"
 #include "etendue/material_conversion.h"
+#include "nearest_lookup.h"
 #include "texture_conversion.h"
 
 namespace etendue {
 namespace {
 
 constexpr std::uint32_t region_side = 128, panel_side = 256, gap = 8;
-
-struct Lookup {
-  DecodedImage image;
-  Texture texture;
-};
-
-Result<std::optional<Lookup>> lookup_of(const Scene& scene, const std::optional<Texture>& texture, std::uint64_t max_pixels) {
-  if (!texture) return std::optional<Lookup>{};
-  Result<DecodedImage> image = decode(scene.images[texture->image], texture->encoding, max_pixels);
-  if (!image) return image.error();
-  Lookup lookup{std::move(*image), {}};
-  lookup.texture.nearest = true;
-  return std::optional{std::move(lookup)};
-}
 
 struct Readings {
   ColourPair core, full;
@@ -45,7 +32,7 @@ class Surface {
                                                                 &material.specular_gloss_texture, &lobe.colour_texture,
                                                                 &lobe.factor_texture};
     for (std::size_t i = 0; i < textures.size(); ++i) {
-      auto lookup = lookup_of(scene, *textures[i], max_pixels);
+      auto lookup = nearest_lookup_of(scene, *textures[i], max_pixels);
       if (!lookup) return lookup.error();
       surface.lookups_[i] = std::move(*lookup);
     }
@@ -81,7 +68,7 @@ class Surface {
     return most;
   }
   Material material_;
-  std::array<std::optional<Lookup>, 5> lookups_;
+  std::array<std::optional<NearestLookup>, 5> lookups_;
 };
 
 double squared(const ColourPair& a, const ColourPair& b) {

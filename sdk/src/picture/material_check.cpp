@@ -6,24 +6,14 @@
 #include <optional>
 #include <unordered_map>
 
+#include "nearest_lookup.h"
+
 namespace etendue {
 namespace {
 
-struct Lookup {
-  DecodedImage image;
-  Texture texture;
-};
-
-Result<std::optional<Lookup>> lookup_of(const Scene& scene, const std::optional<Texture>& texture, std::uint64_t max_pixels) {
-  if (!texture) return std::optional<Lookup>{};
-  Result<DecodedImage> image = decode(scene.images[texture->image], texture->encoding, max_pixels);
-  if (!image) return image.error();
-  Lookup lookup{std::move(*image), {}};
-  lookup.texture.nearest = true;
-  return std::optional{std::move(lookup)};
+Rgba at(const std::optional<NearestLookup>& lookup, Vec2d uv) {
+  return lookup ? sample(lookup->image, lookup->texture, uv) : Rgba{1, 1, 1, 1};
 }
-
-Rgba at(const std::optional<Lookup>& lookup, Vec2d uv) { return lookup ? sample(lookup->image, lookup->texture, uv) : Rgba{1, 1, 1, 1}; }
 
 bool same_place(const std::optional<Texture>& a, const std::optional<Texture>& b) {
   return !a || !b || (a->uv_set == b->uv_set && std::equal(&a->uv_transform[0][0], &a->uv_transform[0][0] + 6, &b->uv_transform[0][0]));
@@ -46,11 +36,11 @@ struct Judged {
 
 Result<MaterialCheck> check_material(const Scene& scene, const Material& material, const PlausibleRanges& ranges,
                                      std::uint64_t max_pixels) {
-  const auto base = lookup_of(scene, material.base_colour_texture, max_pixels);
+  const auto base = nearest_lookup_of(scene, material.base_colour_texture, max_pixels);
   if (!base) return base.error();
-  const auto metal_rough = lookup_of(scene, material.metal_rough_texture, max_pixels);
+  const auto metal_rough = nearest_lookup_of(scene, material.metal_rough_texture, max_pixels);
   if (!metal_rough) return metal_rough.error();
-  const auto specular = lookup_of(scene, material.specular_gloss_texture, max_pixels);
+  const auto specular = nearest_lookup_of(scene, material.specular_gloss_texture, max_pixels);
   if (!specular) return specular.error();
 
   MaterialCheck check;
