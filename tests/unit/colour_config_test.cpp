@@ -1,6 +1,7 @@
 #include "etendue/colour_config.h"
 #include "etendue/camera.h"
 #include "etendue/srgb.h"
+#include "folder.h"
 
 #include <gtest/gtest.h>
 
@@ -113,14 +114,14 @@ TEST(ColourConfig, ViewExposes) {
 }
 
 TEST(ColourConfig, TablesAreWritten) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const test::Folder folder;
   const ColourStep step = *config().baked({.display = "sRGB", .view = "Standard"}, {.grid = 5});
-  ASSERT_TRUE(step.write(folder / "colour_config.clf").ok());
-  std::ifstream written(folder / "colour_config.clf");
+  ASSERT_TRUE(step.write(folder.path() / "colour_config.clf").ok());
+  std::ifstream written(folder.path() / "colour_config.clf");
   const std::string text((std::istreambuf_iterator<char>(written)), {});
   EXPECT_NE(text.find("<ProcessList"), std::string::npos);
   EXPECT_NE(text.find("<LUT3D"), std::string::npos);
-  EXPECT_EQ(step.write(folder / "colour_config.txt").error().code, "COLOUR_STEP_UNWRITABLE");
+  EXPECT_EQ(step.write(folder.path() / "colour_config.txt").error().code, "COLOUR_STEP_UNWRITABLE");
   EXPECT_EQ(step.write("/nowhere/at/all.clf").error().code, "COLOUR_STEP_UNWRITABLE");
 }
 
@@ -135,9 +136,9 @@ TEST(ColourConfig, BadInput) {
        {TableSettings{.grid = 2}, {.grid = 1000}, {.least_stop = 3, .greatest_stop = 3}, {.least_stop = std::nan("")}})
     EXPECT_EQ(config().baked(good, bad).error().code, "TABLE_INVALID");
   EXPECT_EQ(ColourConfig::from_file("/nowhere/config.ocio").error().code, "COLOUR_CONFIG_INVALID");
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "broken.ocio";
-  std::ofstream(file) << "ocio_profile_version: 2\nroles: [";
-  EXPECT_EQ(ColourConfig::from_file(file).error().code, "COLOUR_CONFIG_INVALID");
+  const test::Folder folder;
+  EXPECT_EQ(ColourConfig::from_file(folder.write("broken.ocio", "ocio_profile_version: 2\nroles: [")).error().code,
+            "COLOUR_CONFIG_INVALID");
 }
 
 TEST(ColourConfig, TheEnvironmentOnlyWhenAsked) {

@@ -4,6 +4,7 @@
 #include "etendue/material_parameters.h"
 #include "etendue/normal_filter.h"
 #include "etendue/picture.h"
+#include "folder.h"
 
 #include <gtest/gtest.h>
 
@@ -17,20 +18,14 @@ namespace {
 
 constexpr float half_step = 0.5f / 255;
 
-std::filesystem::path folder() {
-  const auto path = std::filesystem::temp_directory_path() / "baked_layers";
-  std::filesystem::create_directories(path);
-  return path;
-}
-
 struct Stack {
+  test::Folder folder;
   LayeredMaterial material;
   std::vector<ImageRef> images;
 
   // A PPM of `codes`, three a texel.
   Texture picture(const std::string& name, int width, int height, const std::string& codes, Encoding encoding = Encoding::linear) {
-    const auto file = folder() / name;
-    std::ofstream(file) << "P3\n" << width << " " << height << "\n255\n" << codes << "\n";
+    const auto file = folder.write(name, "P3\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n" + codes + "\n");
     images.push_back({file.string(), {}, {}, {}});
     Texture texture;
     texture.image = static_cast<std::uint32_t>(images.size() - 1);
@@ -44,7 +39,7 @@ struct Stack {
     return material.layers.back();
   }
   Result<BakedMaterial> bake(std::uint32_t width, std::uint32_t height, unsigned threads = 1, int bits = 8) const {
-    return bake_layers(material, images, {width, height, folder(), bits, threads});
+    return bake_layers(material, images, {width, height, folder.path(), bits, threads});
   }
 };
 
@@ -165,8 +160,9 @@ TEST(LayeredMaterial, WhatIsWrongIsSaid) {
   Picture picture;
   picture.width = 2, picture.height = 1;
   picture.add("", 3).pixels = {1, 1, 1, 1, std::nanf(""), 1};
-  ASSERT_TRUE(write_exr(picture, folder() / "nan.exr"));
-  stack.images[0].file = (folder() / "nan.exr").string();
+  const auto file = stack.folder.path() / "nan.exr";
+  ASSERT_TRUE(write_exr(picture, file));
+  stack.images[0].file = file.string();
   const Error error = stack.bake(1, 1).error();
   EXPECT_EQ(error.code, "PICTURE_UNSUITABLE");
   EXPECT_NE(error.text.find("(1, 0)"), std::string::npos);
@@ -176,8 +172,8 @@ TEST(LayeredMaterial, WhatIsWrongIsSaid) {
   } stop;
   Stack big;
   big.add(Standard{});
-  BakeOptions options{8, 200, folder() / "cancelled"};
-  std::filesystem::create_directories(options.folder);
+  const test::Folder empty;
+  BakeOptions options{8, 200, empty.path()};
   options.progress = &stop;
   EXPECT_EQ(bake_layers(big.material, {}, options).error().code, "CANCELLED");
   EXPECT_TRUE(std::filesystem::is_empty(options.folder));

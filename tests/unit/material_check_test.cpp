@@ -1,31 +1,32 @@
 #include "etendue/material_check.h"
 #include "etendue/picture_write.h"
+#include "folder.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 namespace etendue {
 namespace {
 
 // A PPM of `codes`, three a texel, in sRGB or linear as the slot says.
-std::uint32_t add_image(Scene& scene, const std::string& name, int width, int height, const std::string& codes) {
-  const auto file = std::filesystem::temp_directory_path() / name;
-  std::ofstream(file) << "P3\n" << width << " " << height << "\n255\n" << codes << "\n";
+std::uint32_t add_image(Scene& scene, const test::Folder& folder, const std::string& name, int width, int height,
+                        const std::string& codes) {
+  const auto file = folder.write(name, "P3\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n" + codes + "\n");
   scene.images.push_back({file.string(), {}, {}, {}});
   return static_cast<std::uint32_t>(scene.images.size() - 1);
 }
 
 // Base colour of two by two texels, metal mask of one by two: its upper half is paint, its lower one metal.
 TEST(MaterialCheck, JudgesTexelsOfTexturesOfUnequalSize) {
+  const test::Folder folder;
   Scene scene;
   Material material;
   material.model = MetalRough{};
   material.base_colour_texture =
-      Texture{add_image(scene, "check_base.ppm", 2, 2, "128 128 128 255 255 255 230 230 230 90 90 90"), Encoding::srgb};
-  material.metal_rough_texture = Texture{add_image(scene, "check_metal.ppm", 1, 2, "0 128 0 0 128 255"), Encoding::linear};
+      Texture{add_image(scene, folder, "base.ppm", 2, 2, "128 128 128 255 255 255 230 230 230 90 90 90"), Encoding::srgb};
+  material.metal_rough_texture = Texture{add_image(scene, folder, "metal.ppm", 1, 2, "0 128 0 0 128 255"), Encoding::linear};
   const auto check = check_material(scene, material);
   ASSERT_TRUE(check) << check.error().text;
   EXPECT_EQ(check->width, 2u);
@@ -47,11 +48,12 @@ TEST(MaterialCheck, JudgesTexelsOfTexturesOfUnequalSize) {
 }
 
 TEST(MaterialCheck, TellsOfTransforms) {
+  const test::Folder folder;
   Scene scene;
   Material material;
   material.model = MetalRough{};
-  material.base_colour_texture = Texture{add_image(scene, "check_one.ppm", 1, 1, "128 128 128"), Encoding::srgb};
-  material.metal_rough_texture = Texture{add_image(scene, "check_two.ppm", 1, 1, "0 128 0"), Encoding::linear};
+  material.base_colour_texture = Texture{add_image(scene, folder, "one.ppm", 1, 1, "128 128 128"), Encoding::srgb};
+  material.metal_rough_texture = Texture{add_image(scene, folder, "two.ppm", 1, 1, "0 128 0"), Encoding::linear};
   EXPECT_TRUE(check_material(scene, material)->same_places);
   material.metal_rough_texture->uv_transform[0][0] = 2;
   EXPECT_FALSE(check_material(scene, material)->same_places);
@@ -72,7 +74,8 @@ TEST(WritePng, ComesBackAsSrgb) {
   Picture picture;
   picture.width = 3, picture.height = 1;
   picture.add("", 3).pixels = {0, 0.5f, 1, -1, 2, std::numeric_limits<float>::quiet_NaN(), 0.0031308f, 0.2140411f, 1};
-  const auto file = std::filesystem::temp_directory_path() / "written.png";
+  const test::Folder folder;
+  const auto file = folder.path() / "written.png";
   ASSERT_TRUE(write_png(picture, file));
   const auto back = decode({file.string(), {}, {}, {}}, Encoding::linear);
   ASSERT_TRUE(back);

@@ -1,4 +1,5 @@
 #include "etendue/picture_write.h"
+#include "folder.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -11,8 +12,6 @@
 
 namespace etendue {
 namespace {
-
-std::filesystem::path temporary(const std::string& name) { return std::filesystem::temp_directory_path() / name; }
 
 Picture two_by_three() {
   Picture p;
@@ -31,7 +30,8 @@ TEST(Exr, AllLayersAndAttributesComeBack) {
   Picture p = two_by_three();
   p.numbers = {{"expTime", 1.0 / 64}, {"aperture", 2.0}, {"isoSpeed", 400}, {"etendue:seeds", 16}, {"etendue:tenth", 0.1}};
   p.texts = {{"comments", "direct light"}, {"etendue:scene", "kitchen.rig.json"}};
-  const auto file = temporary("layers.exr");
+  const test::Folder folder;
+  const auto file = folder.path() / "layers.exr";
   const Status written = write_exr(p, file);
   ASSERT_TRUE(written.ok()) << written.error().text;
   const Result<Picture> back = read_exr(file);
@@ -64,7 +64,8 @@ Picture level(std::uint32_t width, std::uint32_t height, float value) {
 }
 
 TEST(ExrLevels, EveryLevelIsThere) {
-  const auto file = temporary("levels.exr");
+  const test::Folder folder;
+  const auto file = folder.path() / "levels.exr";
   const std::vector<Picture> levels{level(70, 5, 0.25f), level(35, 2, 1000), level(17, 1, 2000), level(8, 1, 3000),
                                     level(4, 1, 4000),   level(2, 1, 5000),  level(1, 1, 6000)};
   const Status written = write_exr_levels(levels, file);
@@ -84,7 +85,8 @@ TEST(ExrLevels, EveryLevelIsThere) {
 }
 
 TEST(ExrLevels, RefusesWhatIsNoChain) {
-  const auto file = temporary("no_levels.exr");
+  const test::Folder folder;
+  const auto file = folder.path() / "no_levels.exr";
   const auto text = [&file](const std::vector<Picture>& levels) {
     const Status written = write_exr_levels(levels, file);
     return written ? std::string("written") : written.error().text;
@@ -99,17 +101,19 @@ TEST(ExrLevels, RefusesWhatIsNoChain) {
 }
 
 TEST(Exr, RefusesWhatIsNotAPicture) {
-  const auto file = temporary("not.exr");
+  const test::Folder folder;
+  const auto file = folder.path() / "not.exr";
   std::ofstream(file) << "this is no picture at all";
   const Result<Picture> read = read_exr(file);
   ASSERT_FALSE(read.ok());
   EXPECT_EQ(read.error().code, "PICTURE_UNSUITABLE");
   EXPECT_EQ(read.error().where.file, file.string());
-  EXPECT_EQ(read_exr(temporary("absent.exr")).error().code, "FILE_UNREADABLE");
+  EXPECT_EQ(read_exr(folder.path() / "absent.exr").error().code, "FILE_UNREADABLE");
 }
 
 TEST(Exr, RefusesATruncatedFile) {
-  const auto file = temporary("truncated.exr");
+  const test::Folder folder;
+  const auto file = folder.path() / "truncated.exr";
   ASSERT_TRUE(write_exr(two_by_three(), file).ok());
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 20);
   EXPECT_FALSE(read_exr(file).ok());
@@ -117,7 +121,8 @@ TEST(Exr, RefusesATruncatedFile) {
 
 // The data window of a small file, widened to 2^13 x 2^13: nothing of that length can hold as many pixels.
 TEST(Exr, RefusesMorePixelsThanTheFileCanHold) {
-  const auto file = temporary("widened.exr");
+  const test::Folder folder;
+  const auto file = folder.path() / "widened.exr";
   ASSERT_TRUE(write_exr(two_by_three(), file).ok());
   std::ifstream in(file, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(in)), {});
@@ -135,7 +140,8 @@ TEST(Exr, RefusesMorePixelsThanTheFileCanHold) {
 }
 
 TEST(Exr, RefusesMorePixelsThanAsked) {
-  const auto file = temporary("six.exr");
+  const test::Folder folder;
+  const auto file = folder.path() / "six.exr";
   ASSERT_TRUE(write_exr(two_by_three(), file).ok());
   EXPECT_TRUE(read_exr(file, 6).ok());
   EXPECT_EQ(read_exr(file, 5).error().code, "PICTURE_UNSUITABLE");
@@ -143,7 +149,8 @@ TEST(Exr, RefusesMorePixelsThanAsked) {
 
 // OpenEXR reads a box's sixteen bytes whatever length stands before them; what follows would be read otherwise than it was checked.
 TEST(Exr, RefusesAnAttributeOfAnotherLengthThanItsType) {
-  const auto file = temporary("length.exr");
+  const test::Folder folder;
+  const auto file = folder.path() / "length.exr";
   ASSERT_TRUE(write_exr(two_by_three(), file).ok());
   std::ifstream in(file, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(in)), {});
@@ -159,7 +166,8 @@ TEST(Exr, ReadsAPictureThatCompressesWell) {
   Picture flat;
   flat.width = flat.height = 2048;
   flat.add("", 3);
-  const auto file = temporary("flat.exr");
+  const test::Folder folder;
+  const auto file = folder.path() / "flat.exr";
   ASSERT_TRUE(write_exr(flat, file).ok());
   EXPECT_LT(std::filesystem::file_size(file), 2048u * 2048 * 12 / 200);
   EXPECT_TRUE(read_exr(file).ok());
@@ -168,8 +176,8 @@ TEST(Exr, ReadsAPictureThatCompressesWell) {
 TEST(Exr, WritesNothingWhenThePictureIsInconsistent) {
   Picture p = two_by_three();
   p.layers[1].pixels.pop_back();
-  const auto file = temporary("never.exr");
-  std::filesystem::remove(file);
+  const test::Folder folder;
+  const auto file = folder.path() / "never.exr";
   EXPECT_EQ(write_exr(p, file).error().code, "PICTURE_UNSUITABLE");
   EXPECT_FALSE(std::filesystem::exists(file));
   p = two_by_three();
@@ -188,17 +196,15 @@ TEST(Layers, NamesThatWouldSplitAChannelAreMadeSafe) {
 }
 
 // A picture in the portable pixmap format, 8 bits a channel.
-ImageRef pixmap(const std::string& name, int width, int height, const std::vector<unsigned char>& bytes) {
-  const auto file = temporary(name);
-  std::ofstream out(file, std::ios::binary);
-  out << "P6\n" << width << ' ' << height << "\n255\n";
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  return {file.string(), nullptr, "", name};
+ImageRef pixmap(const test::Folder& folder, int width, int height, const std::vector<unsigned char>& bytes) {
+  const std::string header = "P6\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n";
+  return {folder.write("picture.ppm", header + std::string(bytes.begin(), bytes.end())).string(), nullptr, "", "picture"};
 }
 
 TEST(Decode, SrgbHasTheStandardsValues) {
   // IEC 61966-2-1: 0 and 1 are fixed points; 188 is near the middle, .5029; 10/255 lies on the straight part, 10/255/12.92.
-  const ImageRef image = pixmap("srgb.ppm", 2, 2, {0, 255, 188, 10, 11, 128, 1, 2, 3, 4, 5, 6});
+  const test::Folder folder;
+  const ImageRef image = pixmap(folder, 2, 2, {0, 255, 188, 10, 11, 128, 1, 2, 3, 4, 5, 6});
   const Result<DecodedImage> d = decode(image, Encoding::srgb);
   ASSERT_TRUE(d.ok()) << d.error().text;
   ASSERT_EQ(d->rgba.size(), 16u);
@@ -215,7 +221,8 @@ TEST(Decode, SrgbHasTheStandardsValues) {
 }
 
 TEST(Decode, RefusesTooLargeAndUnknown) {
-  const ImageRef image = pixmap("large.ppm", 2, 2, std::vector<unsigned char>(12));
+  const test::Folder folder;
+  const ImageRef image = pixmap(folder, 2, 2, std::vector<unsigned char>(12));
   EXPECT_EQ(decode(image, Encoding::linear, 3).error().code, "PICTURE_UNSUITABLE");
   EXPECT_EQ(decode({"absent.png", nullptr, "", ""}, Encoding::linear).error().code, "FILE_UNREADABLE");
   const SharedBytes junk(std::vector<std::uint8_t>{1, 2, 3});
@@ -226,7 +233,8 @@ TEST(Decode, RefusesTooLargeAndUnknown) {
 TEST(Decode, RowsAreThePictureFromTheTop) {
   std::vector<unsigned char> bytes(std::size_t{5} * 150 * 3);
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(7 * i + i / 450);
-  const ImageRef image = pixmap("rows.ppm", 5, 150, bytes);
+  const test::Folder folder;
+  const ImageRef image = pixmap(folder, 5, 150, bytes);
   const Result<DecodedImage> whole = decode(image, Encoding::srgb);
   ASSERT_TRUE(whole.ok());
   std::vector<float> rows;

@@ -1,6 +1,7 @@
 #include "etendue/render.h"
 
 #include "etendue/eval.h"
+#include "folder.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 namespace etendue {
 namespace {
@@ -465,10 +465,15 @@ TEST(Render, UniformEnvironment) {
   EXPECT_LT(std::sqrt(variance) / count, 0.2);
 }
 
+// A black texel beside a white one.
+std::filesystem::path black_and_white(const test::Folder& folder) {
+  return folder.write("halves.ppm", "P6\n2 1\n255\n" + std::string("\0\0\0\xff\xff\xff", 6));
+}
+
 // One pixel over a floor of black and white halves: the mean of the texture.
 TEST(Render, TexturesAreIntegratedOverThePixel) {
-  const auto file = std::filesystem::temp_directory_path() / "halves.ppm";
-  std::ofstream(file, std::ios::binary) << "P6\n2 1\n255\n" << std::string("\0\0\0\xff\xff\xff", 6);
+  const test::Folder folder;
+  const auto file = black_and_white(folder);
   Scene scene = floor_scene();
   scene.images.push_back({file.string(), nullptr, "", "halves"});
   scene.materials.push_back({});
@@ -498,8 +503,8 @@ TEST(Render, TexturesAreIntegratedOverThePixel) {
 // A glossy floor whose colour is a triangle wave of about three pixels, under a rectangle: the mean over the pixel of light times colour,
 // against 16 x 16 places evaluated one by one (whose own error, (1/16)^2 / 24 of the wave's slope per pixel, is below 2e-4).
 TEST(Render, ATexturesColoursAreMeanedWithTheExactLight) {
-  const auto file = std::filesystem::temp_directory_path() / "wave.ppm";
-  std::ofstream(file, std::ios::binary) << "P6\n2 1\n255\n" << std::string("\0\0\0\xff\xff\xff", 6);
+  const test::Folder folder;
+  const auto file = black_and_white(folder);
   Scene scene = floor_scene();
   scene.images.push_back({file.string(), nullptr, "", "wave"});
   scene.materials.push_back({});
@@ -546,8 +551,8 @@ TEST(Render, ATexturesColoursAreMeanedWithTheExactLight) {
 
 // A quad facing +Z whose texture is black on the left and white on the right.
 TEST(Render, AMeshLightShowsItsTextureAtItsTextureCoordinates) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "etendue_render_light.ppm";
-  std::ofstream(file, std::ios::binary) << "P6\n2 1\n255\n" << std::string("\0\0\0\xff\xff\xff", 6);
+  const test::Folder folder;
+  const auto file = black_and_white(folder);
   Scene scene;
   scene.images.push_back({file.string(), nullptr, "", "halves"});
   Mesh quad;
