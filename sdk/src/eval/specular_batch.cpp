@@ -40,7 +40,7 @@ Result<SpecularBatch> SpecularBatch::of(SpecularRule rule, const Emitter& emitte
   std::shared_ptr<const Light> light;
   if (!white.pattern && !is_window(white.window)) {
     light = specular_rect(rule, white);
-    if (!light) light = specular_sphere(rule, white);
+    if (!light) light = specular_round_moments(rule, white);
     if (!light) light = specular_round(rule, white);
   }
   if (!light) return Error{"METHOD_SHAPE", std::string(name_of(rule)) + " has no vectors for this light", {}, {}, {}};

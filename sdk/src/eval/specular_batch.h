@@ -23,8 +23,9 @@ class SpecularBatch::Light {
 
 // Of an emitter of luminance 1; null if it is no rectangle or if the rule takes none.
 std::shared_ptr<const SpecularBatch::Light> specular_rect(SpecularRule rule, const Emitter& white);
-// The same of a sphere, by moments, and of spheres, disks and suns by transformed cosines.
-std::shared_ptr<const SpecularBatch::Light> specular_sphere(SpecularRule rule, const Emitter& white);
+// The same of spheres, disks and suns, by moments and by transformed cosines.
+bool is_round(const Emitter& emitter);
+std::shared_ptr<const SpecularBatch::Light> specular_round_moments(SpecularRule rule, const Emitter& white);
 std::shared_ptr<const SpecularBatch::Light> specular_round(SpecularRule rule, const Emitter& white);
 
 // The method in double at one point of a batch.

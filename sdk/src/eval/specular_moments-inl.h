@@ -32,15 +32,20 @@ HWY_INLINE void add_chord(const Vector3& from, const Vector3& to, Lanes part, Mo
   sums.xy = hn::MulAdd(turn, hn::MulAdd(ax, ay, hn::MulAdd(bx, by, hn::Mul(x, y))), sums.xy);
 }
 
+// h' at a place of a side and how it changes there, times the same factor.
+struct CurvePlace {
+  Vector3 h, speed;
+};
 // h' of a circle of directions times 1 + (u t)^2: a quadratic in t from -1 to 1.
 struct Quadratic {
   Vector3 c0, c1, c2;
   Lanes u2;
   Vector3 at(Lanes t) const { return along(c0, along(c1, c2, t), t); }
-  // How h' changes, times 1 + (u t)^2.
-  Vector3 speed(Lanes t, const Vector3& h) const {
+  CurvePlace middle() const { return {c0, c1}; }
+  CurvePlace place(Lanes t) const {
+    const Vector3 h = at(t);
     const Lanes ut = hn::Mul(u2, t), grown = hn::Mul(hn::Add(ut, ut), near_inverse(hn::MulAdd(ut, t, number(1))));
-    return along(along(c1, c2, hn::Add(t, t)), h, hn::Neg(grown));
+    return {h, along(along(c1, c2, hn::Add(t, t)), h, hn::Neg(grown))};
   }
 };
 HWY_INLINE Vector3 bent(const Vector3& v, Lanes over_alpha) { return {hn::Mul(v.x, over_alpha), hn::Mul(v.y, over_alpha), v.z}; }
@@ -51,6 +56,31 @@ HWY_INLINE Quadratic bent_arc(const Vector3& centre, const Vector3& outwards, co
   const Vector3 base = view + centre;
   return {bent(base + outwards, over_alpha), scaled(bent(onwards, over_alpha), hn::Add(tan_quarter, tan_quarter)),
           scaled(bent(base - outwards, over_alpha), u2), u2};
+}
+// Where the nodes lie need not be exact: roots and inverses to 12 bits.
+HWY_INLINE Lanes near_root(Lanes x) { return hn::Mul(x, near_inverse_sqrt(Floats(), hn::Max(x, number(1e-30f)))); }
+// The same of a part of a circle in space: b(t) is a quadratic too, but its length is a root, h' = M (v + b / |b|), here times |b|.
+struct RimPart {
+  Vector3 b0, b1, b2, view;
+  Lanes over_alpha;
+  Vector3 from_view(const Vector3& b) const { return bent(along(b, view, near_root(dot(b, b))), over_alpha); }
+  Vector3 at(Lanes t) const {
+    const Vector3 b = along(b0, along(b1, b2, t), t);
+    return bent(along(b, view, hn::Sqrt(dot(b, b))), over_alpha);
+  }
+  CurvePlace middle() const { return place_of(b0, b1); }
+  CurvePlace place(Lanes t) const { return place_of(along(b0, along(b1, b2, t), t), along(b1, b2, hn::Add(t, t))); }
+
+ private:
+  HWY_INLINE CurvePlace place_of(const Vector3& b, const Vector3& onwards) const {
+    const Lanes inwards = hn::Neg(hn::Mul(dot(b, onwards), near_inverse(hn::Max(dot(b, b), number(1e-30f)))));
+    return {from_view(b), bent(along(onwards, b, inwards), over_alpha)};
+  }
+};
+HWY_INLINE RimPart bent_rim(const Vector3& centre, const Vector3& outwards, const Vector3& onwards, Lanes tan_quarter, const Vector3& view,
+                            Lanes over_alpha) {
+  return {centre + outwards, scaled(onwards, hn::Add(tan_quarter, tan_quarter)),
+          scaled(centre - outwards, hn::Mul(tan_quarter, tan_quarter)), view, over_alpha};
 }
 // Of the great circle from a to b, unit vectors: with s = a + b and the cosine of half the angle c = |s| / 2, its middle is s / |s|, and
 // u = tan of a quarter of the angle, u^2 = (1 - c) / (1 + c) = |b - a|^2 / (4 (1 + c)^2).
@@ -63,14 +93,13 @@ HWY_INLINE Quadratic bent_side(const Vector3& a, const Vector3& b, const Vector3
   const Vector3 middle = scaled(sum, over_length);
   return {bent(view + middle, over_alpha), scaled(bent(step, over_alpha), over), scaled(bent(view - middle, over_alpha), u2), u2};
 }
-// Where the nodes lie need not be exact: roots and inverses to 12 bits.
-HWY_INLINE Lanes near_root(Lanes x) { return hn::Mul(x, near_inverse_sqrt(Floats(), hn::Max(x, number(1e-30f)))); }
-HWY_INLINE void add_side(const Quadratic& side, Lit seen, MomentSums& sums) {
+template <class Curve>
+HWY_INLINE void add_side(const Curve& side, Lit seen, MomentSums& sums) {
   const Floats d;
   const Lanes one = number(1);
   Lanes nearest = number(0), width = one;
   each<2>([&](auto turn) ETENDUE_INLINE_LAMBDA {
-    const Vector3 h = turn == 0 ? side.c0 : side.at(nearest), speed = turn == 0 ? side.c1 : side.speed(nearest, h);
+    const auto [h, speed] = turn == 0 ? side.middle() : side.place(nearest);
     const Lanes over = near_inverse(hn::Max(dot(speed, speed), number(1e-30f))), onwards = dot(h, speed);
     const Lanes shift = hn::Mul(onwards, over);
     if constexpr (turn == 1) width = hn::Mul(hn::NegMulAdd(onwards, shift, dot(h, h)), over);
@@ -147,14 +176,16 @@ HWY_INLINE Shares shares_of(const MomentSums& sums, Lanes alpha, const ViewFrame
   return {hn::Mul(of_f0, kept), hn::Mul(of_f90, kept)};
 }
 
-// `from`: a direction of the outline.
-template <std::size_t N>
-HWY_INLINE Shares by_moments(const ViewFrame& frame, Lanes alpha, const Vector3& from, const std::array<Quadratic, N>& sides,
-                             const std::array<Lit, N>& seen) {
-  const Lanes zero = number(0);
-  MomentSums sums{unit(bent(frame.view() + from, inverse(Floats(), alpha))), zero, zero, zero, zero, zero, zero, zero};
+template <class Curve, std::size_t N>
+HWY_INLINE void add_sides(const std::array<Curve, N>& sides, const std::array<Lit, N>& seen, MomentSums& sums) {
   // A loop that is left one: sides are hundreds of instructions each.
   for (std::size_t i = 0; i < N; ++i) add_side(sides[i], seen[i], sums);
+}
+// `from`: a direction of the outline; add(sums) adds its sides.
+HWY_INLINE Shares by_moments(const ViewFrame& frame, Lanes alpha, const Vector3& from, const auto& add) {
+  const Lanes zero = number(0);
+  MomentSums sums{unit(bent(frame.view() + from, inverse(Floats(), alpha))), zero, zero, zero, zero, zero, zero, zero};
+  add(sums);
   return shares_of(sums, alpha, frame);
 }
 struct ByMoments {
@@ -167,7 +198,7 @@ struct ByMoments {
       sides[i] = bent_side(light.from[i], light.to[i], frame.view(), over_alpha);
       from = chosen(light.seen[i], light.from[i], from);
     }
-    return by_moments(frame, alpha, from, sides, light.seen);
+    return by_moments(frame, alpha, from, [&](MomentSums& sums) ETENDUE_INLINE_LAMBDA { add_sides(sides, light.seen, sums); });
   }
 };
 

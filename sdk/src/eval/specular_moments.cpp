@@ -23,7 +23,7 @@ struct SchlickParts {
 
 class Disk {
  public:
-  Disk(double alpha, const Vec3d& view) : alpha_(std::max(alpha, min_alpha)), view_(view), view_root_(root(view.z)) {}
+  Disk(double alpha, const Vec3d& view) : alpha_(std::clamp(alpha, min_alpha, 1.0)), view_(view), view_root_(root(view.z)) {}
 
   Vec3d linear(const Vec3d& v) const { return {v.x / alpha_, v.y / alpha_, v.z}; }
   // h' of a direction, of any length.

@@ -159,11 +159,14 @@ class RoundLight final : public SpecularBatch::Light {
 
 }  // namespace
 
+bool is_round(const Emitter& emitter) {
+  const auto* sun = std::get_if<DistantEmitter>(&emitter.shape);
+  return std::holds_alternative<SphereEmitter>(emitter.shape) || std::holds_alternative<DiskEmitter>(emitter.shape) ||
+         (sun != nullptr && sun->radius_rad > 0 && sun->radius_rad < 1.5);
+}
+
 std::shared_ptr<const SpecularBatch::Light> specular_round(SpecularRule rule, const Emitter& white) {
-  const auto* sun = std::get_if<DistantEmitter>(&white.shape);
-  const bool is_round = std::holds_alternative<SphereEmitter>(white.shape) || std::holds_alternative<DiskEmitter>(white.shape) ||
-                        (sun != nullptr && sun->radius_rad > 0 && sun->radius_rad < 1.5);
-  return is_round && rule != SpecularRule::moments ? std::make_shared<RoundLight>(white) : nullptr;
+  return is_round(white) && rule != SpecularRule::moments ? std::make_shared<RoundLight>(white) : nullptr;
 }
 
 }  // namespace etendue::eval
