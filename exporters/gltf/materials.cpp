@@ -44,6 +44,7 @@ class MaterialWriter {
       write_metal_rough(material, *metal, json);
       report_pointers(material);
     }
+    follow_colours(material, json);
   }
 
   // Names of extensions, and textures that nobody refers to any more.
@@ -61,6 +62,38 @@ class MaterialWriter {
   }
 
  private:
+  // Colours whose pictures the scene has anew (convert_colour_textures()).
+  void follow_colours(const Material& material, Json& json) {
+    const bool two_colours = std::holds_alternative<SpecularGlossiness>(material.model);
+    const auto follow_in = [&](Json& owner, const char* name, const char* key, const std::optional<Texture>& texture) {
+      if (const auto found = owner.find(name); found != owner.end()) follow(*found, key, texture);
+    };
+    follow(json, "emissiveTexture", material.emissive_texture);
+    if (!two_colours || material.fallback)
+      follow_in(json, "pbrMetallicRoughness", "baseColorTexture",
+                two_colours ? material.fallback->base_colour_texture : material.base_colour_texture);
+    const auto extensions = json.find("extensions");
+    if (extensions == json.end()) return;
+    if (two_colours) {
+      follow_in(*extensions, spec_gloss, "diffuseTexture", material.base_colour_texture);
+      follow_in(*extensions, spec_gloss, "specularGlossinessTexture", material.specular_gloss_texture);
+    }
+    const Lobes& lobes = material.lobes;
+    if (lobes.specular) follow_in(*extensions, specular, "specularColorTexture", lobes.specular->colour_texture);
+    if (lobes.sheen) follow_in(*extensions, "KHR_materials_sheen", "sheenColorTexture", lobes.sheen->colour_texture);
+    if (lobes.diffuse_transmission)
+      follow_in(*extensions, "KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture",
+                lobes.diffuse_transmission->colour_texture);
+  }
+  void follow(Json& model, const char* key, const std::optional<Texture>& texture) {
+    const auto info = model.find(key);
+    if (info == model.end() || !texture || place_before(document_.scene.images[texture->image])) return;
+    lookup_ = *info;
+    if (const Json* index = index_in(*info, "index")) replaced_.insert(index->get<std::size_t>());
+    (*info)["index"] = texture_of(texture->image);
+    changed_ = true;
+  }
+
   // What the lookups are taken from, and the textures that may fall out of use.
   void replace(const Json& model, const char* first, const char* second) {
     changed_ = true;
@@ -158,8 +191,7 @@ class MaterialWriter {
 
   std::size_t image_of(std::uint32_t index) {
     const ImageRef& image = document_.scene.images[index];
-    for (std::size_t i = 0; document_.before.contains("images") && i < document_.before["images"].size(); ++i)
-      if (is_image(document_.before["images"][i], image)) return i;
+    if (const auto place = place_before(image)) return *place;
     const auto known = images_.find(index);
     if (known != images_.end()) return known->second;
     Json& images = document_.now["images"];
@@ -168,6 +200,13 @@ class MaterialWriter {
     images.push_back(std::move(out));
     document_.new_images.emplace(images.size() - 1, &image);
     return images_[index] = images.size() - 1;
+  }
+
+  // Where the document that was read has an image.
+  std::optional<std::size_t> place_before(const ImageRef& image) const {
+    for (std::size_t i = 0; document_.before.contains("images") && i < document_.before["images"].size(); ++i)
+      if (is_image(document_.before["images"][i], image)) return i;
+    return std::nullopt;
   }
 
   // Whether the document's image is where this one was read from.

@@ -11,6 +11,7 @@
 #include "etendue/conversion_views.h"
 #include "etendue/material_conversion.h"
 #include "etendue/picture_write.h"
+#include "etendue/texture_space.h"
 
 #include "exporters/eulumdat/eulumdat.h"
 #include "exporters/gltf/gltf.h"
@@ -28,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string in, out, to, loss, size = "512x512", camera, lights, mute, materials, readers = "all", views;
+  std::string in, out, to, loss, size = "512x512", camera, lights, mute, materials, readers = "all", views, texture_space, ocio;
   ImportOptions import;
   int depth = 2, bits = 8;
   unsigned samples = 1024, jobs = 1;
@@ -149,6 +150,20 @@ Status show_worst(Converted& job, const Options& options, const Scene& before, c
   return Done{};
 }
 
+// Colour textures that are in the space that --texture-space names, as everything else takes them. A conversion of materials reads them
+// again: 16 bits then, so that they are rounded to --bits once.
+Status read_colours(Converted& job, const Options& options, Scene& scene, const fs::path& folder, Progress* progress) {
+  const auto config = options.ocio.empty() ? ColourConfig::from_environment() : ColourConfig::from_file(options.ocio);
+  if (!config) return config.error();
+  const auto step = config->to_linear_rec709(options.texture_space);
+  if (!step) return step.error();
+  const int bits = options.materials.empty() ? options.bits : 16;
+  auto losses = convert_colour_textures(scene, *step, {folder, bits, options.import.max_pixels, progress});
+  if (!losses) return losses.error();
+  job.losses = std::move(*losses);
+  return Done{};
+}
+
 void convert_one(Converted& job, const Options& options, Size size, Progress* progress) {
   if (fs::exists(job.out) && !options.force) {
     job.error = Error{"USAGE", fmt::format("{} is there already", job.out.string()), {}, "--force replaces it", {}};
@@ -170,7 +185,8 @@ void convert_one(Converted& job, const Options& options, Size size, Progress* pr
   const auto model = model_of(options.materials);
   static const std::unique_ptr<Importer> all_materials = make_gltf_importer(GltfMaterials::all);
   const bool is_gltf = (*importer)->describe().id == all_materials->describe().id;
-  Result<Imported> imported = (model && is_gltf ? all_materials.get() : *importer)->read(job.in, options.import);
+  const bool all = is_gltf && (model || !options.texture_space.empty());
+  Result<Imported> imported = (all ? all_materials.get() : *importer)->read(job.in, options.import);
   if (!imported) return void(job.error = imported.error());
   imported->diagnostics.append(read_photometric_lights(imported->scene));
   job.diagnostics.append(imported->diagnostics);
@@ -179,12 +195,15 @@ void convert_one(Converted& job, const Options& options, Size size, Progress* pr
     return;
   }
   const TextureFolder textures(job.out, exporter->describe().id == "rig");
+  if (!options.texture_space.empty()) {
+    if (Status read = read_colours(job, options, imported->scene, textures.path(), progress); !read) return void(job.error = read.error());
+  }
   if (model) {
     const Scene before = options.views.empty() ? Scene{} : imported->scene;
     auto conversion = convert_materials(imported->scene, {*model, options.bits, textures.path(), options.jobs > 1 ? 1u : 0u, progress,
                                                           options.readers == "core" ? Readers::core : Readers::all});
     if (!conversion) return void(job.error = conversion.error());
-    job.losses = std::move(conversion->losses);
+    for (Loss& loss : conversion->losses.losses) job.losses.losses.push_back(std::move(loss));
     for (const MaterialChange& change : conversion->changes) {
       job.materials.push_back(to_json(change, imported->scene));
       if (options.views.empty()) continue;
@@ -320,6 +339,13 @@ void add_convert(CLI::App& app, const Common& common, Run& run) {
           "With --materials: folder for a PNG a material, of where it has changed most for core-only readers (above) and for those of "
           "KHR_materials_specular (below): diffuse before and after, f0 before and after, the error in false colours")
       ->needs("--materials");
+  verb->add_option(
+      "--texture-space", options->texture_space,
+      "The colour space that textures of colours are in, where it is not sRGB (or linear Rec.709 of floating-point files): a name of "
+      "the configuration, as ACEScg, \"linear Rec.2020\", \"linear P3\", ACES2065-1 of the built-in one");
+  verb->add_option("--ocio", options->ocio, "An OpenColorIO configuration, where it is not the one that $OCIO names or the built-in one")
+      ->needs("--texture-space")
+      ->check(CLI::ExistingFile);
   verb->add_flag(
       "--emissive-shapes", options->emissive_shapes,
       "Into glTF: a mesh that emits its luminance beside each light with a surface, where the format itself has points and spots");
@@ -328,6 +354,7 @@ void add_convert(CLI::App& app, const Common& common, Run& run) {
   verb->footer(
       "\nExamples:\n  etendue convert kitchen.rig.json kitchen.xml\n  etendue convert glass.glb glass.xml --depth 8\n  "
       "etendue convert chair.glb chair_mr.glb --materials metal-rough\n  "
+      "etendue convert film.gltf chair.glb --materials metal-rough --texture-space ACEScg\n  "
       "etendue convert chair.glb chair_core.glb --materials metal-rough --readers core --bits 16 --views worst\n  "
       "etendue convert kitchen.rig.json kitchen.glb --emissive-shapes\n  "
       "etendue convert assets/ scenes/ --to .xml --jobs 4 --loss "

@@ -16,7 +16,7 @@ def add_options(parser, spp=4096):
     parser.add_argument("--spp", type=int, default=spp, help="samples per pixel to begin with")
     parser.add_argument("--most", type=int, default=65536, help="samples per pixel that are not exceeded; an undecided comparison fails")
     parser.add_argument("--cache", help="folder for Mitsuba's pictures, for a second run with the same scenes")
-    parser.add_argument("--resume", metavar="FILE", help="append each figure to FILE, and measure only what is not in it yet")
+    parser.add_argument("--resume", metavar="FILE", help="append what was measured to FILE, and measure only what is not in it yet")
 
 
 def validate(arguments, asset, samples, folder, max_difference="0.2%", more=()):
@@ -81,7 +81,7 @@ def agrees(arguments, label, asset, folder, limit=LIMIT, more=()):
     figures = recorded(arguments, label)
     if figures is None:
         figures = measure(arguments, asset, folder, limit, more)
-        if arguments.resume:
+        if arguments.resume and "problem" not in figures:
             with open(arguments.resume, "a") as file:
                 file.write(json.dumps({"label": label, "figures": figures}) + "\n")
     if "problem" in figures:

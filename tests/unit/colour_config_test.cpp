@@ -125,6 +125,36 @@ TEST(ColourConfig, TablesAreWritten) {
   EXPECT_EQ(step.write("/nowhere/at/all.clf").error().code, "COLOUR_STEP_UNWRITABLE");
 }
 
+// A configuration that knows no name of ours, by the role that studios' configurations have.
+TEST(ColourConfig, OtherConfigurationsMeetByAces) {
+  const test::Folder folder;
+  const std::string spaces = R"(
+displays: {d: [!<View> {name: v, colorspace: ap0}]}
+colorspaces:
+  - !<ColorSpace> {name: ap0}
+  - !<ColorSpace> {name: doubled, to_scene_reference: !<MatrixTransform> {matrix: [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1]}}
+)";
+  const auto with = [&](const std::string& roles) {
+    return *ColourConfig::from_file(folder.write("config.ocio", "ocio_profile_version: 2\nroles: {default: ap0" + roles + "}" + spaces));
+  };
+  const ColourConfig aces = with(", aces_interchange: ap0");
+  std::vector<Vec3f> pixels = {{2, 2, 2}, {0.36F, 0.36F, 0.36F}}, green = {{0, 2, 0}};
+  const ColourStep step = *aces.to_linear_rec709("doubled");
+  step.apply(pixels);
+  EXPECT_LE(largest_of(vec_cast<double>(pixels[0]) - Vec3d{1, 1, 1}), 1e-6);
+  EXPECT_LE(largest_of(vec_cast<double>(pixels[1]) - Vec3d{0.18, 0.18, 0.18}), 1e-6);
+  // AP0 to linear Rec.709 with Bradford: the second column as the ACES configurations of OpenColorIO have it.
+  step.apply(green);
+  EXPECT_LE(largest_of(vec_cast<double>(green[0]) - Vec3d{-1.13413, 1.37272, -0.15298}), 1e-3);
+  EXPECT_EQ(aces.to_linear_rec709("tripled").error().code, "COLOUR_NAME_UNKNOWN");
+  EXPECT_EQ(with("").to_linear_rec709("doubled").error().code, "COLOUR_CONFIG_INVALID");
+  // The built-in one goes the same way, which is its own.
+  std::vector<Vec3f> there = {{0.2F, 0.5F, 0.7F}}, direct = there;
+  config().to_linear_rec709("ACEScg")->apply(there);
+  config().conversion("ACEScg", "linear Rec.709")->apply(direct);
+  EXPECT_LE(largest_of(vec_cast<double>(there[0]) - vec_cast<double>(direct[0])), 1e-6);
+}
+
 TEST(ColourConfig, BadInput) {
   EXPECT_EQ(config().conversion("linear Rec.907", "raw").error().code, "COLOUR_NAME_UNKNOWN");
   EXPECT_NE(config().conversion("linear Rec.907", "raw").error().hint.find("linear Rec.709"), std::string::npos);

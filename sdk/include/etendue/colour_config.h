@@ -51,7 +51,7 @@ struct TableSettings {
 // what OpenColorIO says; VIEW_INVALID unless exposure and white balance are finite; TABLE_INVALID.
 class ColourConfig {
  public:
-  // "linear Rec.709", "sRGB texture", "ACEScg", "linear Rec.2020", "linear P3", "raw"; displays "sRGB", "Display P3", "Rec.709"
+  // "linear Rec.709", "sRGB texture", "ACEScg", "ACES2065-1", "linear Rec.2020", "linear P3", "raw"; displays "sRGB", "Display P3", "Rec.709"
   // (gamma 2.4), each with the views "Standard" (no tone curve: what is beyond 1 stays so) and "Raw". Whites are adapted by Bradford.
   static Result<ColourConfig> built_in();
   static Result<ColourConfig> from_file(const std::filesystem::path& file);
@@ -63,6 +63,9 @@ class ColourConfig {
   std::vector<std::string> views(const std::string& display) const;
 
   Result<ColourStep> conversion(const std::string& from, const std::string& to) const;
+  // To the built-in configuration's "linear Rec.709", by way of ACES2065-1: a configuration from a file has to have the role
+  // aces_interchange, else COLOUR_CONFIG_INVALID.
+  Result<ColourStep> to_linear_rec709(const std::string& from) const;
   Result<ColourStep> view(const ViewSettings& settings) const;
   // The same as a matrix (exposure, white balance), a shaper and one table, whose input is cd/m2. What the matrix leaves negative counts as
   // 0. In the built-in views of linear Rec.709 it is within .0015 of the range from display black to white with 65 points a side, .006

@@ -16,6 +16,9 @@ ocio::MatrixTransformRcPtr matrix(const Matrix3& m) {
   return made;
 }
 
+constexpr ColourSpace aces2065_1{"aces2065-1",     {0.7347, 0.2653},   {0, 1},
+                                 {0.0001, -0.077}, {0.32168, 0.33767}, "SMPTE ST 2065-1, AP0: what configurations exchange colours in"};
+
 // Between the reference, linear Rec.709, and a space: Bradford where the whites differ, a known matrix, hence no error.
 ocio::MatrixTransformRcPtr to_reference(const ColourSpace& space) {
   return matrix(*conversion(space, rec709, ChromaticAdaptation::bradford));
@@ -62,6 +65,7 @@ ocio::ConfigRcPtr built_in_config() {
   add(config, "linear Rec.709", "scene-linear", false, {});
   add(config, "sRGB texture", "sdr-video", false, {srgb_curve()});
   add(config, "ACEScg", "scene-linear", false, {to_reference(acescg)});
+  add(config, "ACES2065-1", "scene-linear", false, {to_reference(aces2065_1)});
   add(config, "linear Rec.2020", "scene-linear", false, {to_reference(rec2020)});
   add(config, "linear P3", "scene-linear", false, {to_reference(p3_d65)});
   add(config, "raw", "data", true, {});
@@ -72,6 +76,7 @@ ocio::ConfigRcPtr built_in_config() {
     config->addDisplayView(display, "Raw", "raw", "");
   }
   config->setRole(ocio::ROLE_REFERENCE, "linear Rec.709");
+  config->setRole("aces_interchange", "ACES2065-1");
   config->setRole(ocio::ROLE_SCENE_LINEAR, "linear Rec.709");
   config->setRole(ocio::ROLE_RENDERING, "linear Rec.709");
   config->setRole(ocio::ROLE_DATA, "raw");

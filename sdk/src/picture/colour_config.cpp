@@ -200,6 +200,16 @@ Result<ColourStep> ColourConfig::conversion(const std::string& from, const std::
   return made_->step(transform);
 }
 
+Result<ColourStep> ColourConfig::to_linear_rec709(const std::string& from) const {
+  if (const Status found = known("colour space", from, spaces()); !found) return found.error();
+  return guarded([&]() -> Result<ColourStep> {
+    const ocio::ConstConfigRcPtr target = built_in_config();
+    const ocio::ConstProcessorRcPtr processor =
+        ocio::Config::GetProcessorFromConfigs(made_->config, from.c_str(), target, "linear Rec.709");
+    return ColourStep(std::make_shared<const ColourStep::Implementation>(ColourStep::Implementation{target, processor, cpu(processor)}));
+  });
+}
+
 Result<ColourStep> ColourConfig::view(const ViewSettings& settings) const {
   if (const Status checked = valid(*this, settings); !checked) return checked.error();
   ocio::GroupTransformRcPtr group = ocio::GroupTransform::Create();
