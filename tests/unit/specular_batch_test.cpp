@@ -164,6 +164,24 @@ TEST(SpecularBatch, OfSunsIsTheMethodInDouble) {
   });
 }
 // In contact, within, far away, edge-on, of no size and of any, from every angle.
+void expect_finite_light(const char* name, const Emitter& light, double size, Random& random) {
+  Views views;
+  for (int i = 0; i < 1500; ++i) {
+    const Vec3d n = random.direction(), across = normalised(cross(n, random.direction()));
+    const double lift = std::array{0.0, 1e-9, 1e-4, 0.1, 1.0}[static_cast<std::size_t>(i % 5)];
+    Vec3d position = random.direction() * std::pow(10.0, random.uniform(-6, 6));
+    if (i % 3 == 0) position.z *= std::pow(10.0, random.uniform(-8, 0));
+    if (i % 11 == 0) position = random.direction() * (size * (1 + std::pow(10.0, random.uniform(-8, 0))));
+    if (i % 13 == 0) position.y = position.z = 0;
+    views.add(position, n, i % 7 == 0 ? n : normalised(across + n * lift), std::pow(10.0, random.uniform(-6, 0.5)));
+  }
+  views.add({}, {0, 0, 1}, {0, 0, 1}, 0.3);
+  const Answers found = answers(name, light, views);
+  for (std::size_t i = 0; i < views.alpha.size(); ++i) {
+    EXPECT_TRUE(found.of_f0[i] >= 0 && found.of_f90[i] >= 0 && found.of_f0[i] + found.of_f90[i] <= 1.0002f)
+        << name << ' ' << size << ' ' << i << ' ' << found.of_f0[i] << ' ' << found.of_f90[i];
+  }
+}
 TEST(SpecularBatch, OfRoundLightsIsFiniteLight) {
   on_each_instruction_set([] {
     Random random(10);
@@ -171,31 +189,38 @@ TEST(SpecularBatch, OfRoundLightsIsFiniteLight) {
       for (const double size : {0.0, 1e-6, 1.0, 1e5}) {
         Emitter disk = white(DiskEmitter{{}, {0, 0, 1}, {1, 0, 0}, size});
         disk.two_sided = true;
-        for (const Emitter& light : {disk, white(SphereEmitter{{}, size})}) {
-          Views views;
-          for (int i = 0; i < 1500; ++i) {
-            const Vec3d n = random.direction(), across = normalised(cross(n, random.direction()));
-            const double lift = std::array{0.0, 1e-9, 1e-4, 0.1, 1.0}[static_cast<std::size_t>(i % 5)];
-            Vec3d position = random.direction() * std::pow(10.0, random.uniform(-6, 6));
-            if (i % 3 == 0) position.z *= std::pow(10.0, random.uniform(-8, 0));
-            if (i % 11 == 0) position = random.direction() * (size * (1 + std::pow(10.0, random.uniform(-8, 0))));
-            views.add(position, n, i % 7 == 0 ? n : normalised(across + n * lift), std::pow(10.0, random.uniform(-6, 0.5)));
-          }
-          views.add({}, {0, 0, 1}, {0, 0, 1}, 0.3);
-          const Answers found = answers(name, light, views);
-          for (std::size_t i = 0; i < views.alpha.size(); ++i) {
-            EXPECT_TRUE(found.of_f0[i] >= 0 && found.of_f90[i] >= 0 && found.of_f0[i] + found.of_f90[i] <= 1.0002f)
-                << name << ' ' << size << ' ' << i << ' ' << found.of_f0[i] << ' ' << found.of_f90[i];
-          }
-        }
+        for (const Emitter& light : {disk, white(SphereEmitter{{}, size})}) expect_finite_light(name, light, size, random);
       }
     }
   });
 }
-// A round outline is cut into other parts than in double, so that each has errors of its own, of which the batch's are up to twice as
-// large: all of them over all the light, within what is asked of a fast mode.
-TEST(SpecularBatch, MomentsOfRoundLightsAreCloseToTheReference) {
-  for (const Kind kind : {Kind::sphere, Kind::disk}) {
+TEST(SpecularBatch, OfTubesIsFiniteLight) {
+  on_each_instruction_set([] {
+    Random random(11);
+    for (const double size : {1e-6, 1.0, 1e5})
+      for (const double radius : {0.01, 0.5, 3.0})
+        expect_finite_light("moments", white(TubeEmitter{{-size, 0, 0}, {size, 0, 0}, radius * size, Caps::round}), size, random);
+  });
+}
+// A tube without a length is a sphere, and one that is hardly longer is hardly another light.
+TEST(SpecularBatch, OfTheShortestTubeIsThatOfASphere) {
+  Random random(12);
+  const Emitter sphere = white(SphereEmitter{{0.3, -0.2, 0.1}, 0.4});
+  const Views views = views_around(sphere, random, 300);
+  const Answers expected = answers("moments", sphere, views);
+  for (const double length : {0.0, 1e-4}) {
+    const Emitter tube = white(TubeEmitter{{0.3, -0.2, 0.1}, {0.3, -0.2, 0.1 + length}, 0.4, Caps::round});
+    const Answers found = answers("moments", tube, views);
+    double apart = 0, sum = 0;
+    for (std::size_t i = 0; i < views.alpha.size(); ++i)
+      apart += std::abs(static_cast<double>(found.of_f0[i] - expected.of_f0[i])), sum += static_cast<double>(expected.of_f0[i]);
+    EXPECT_LT(apart, (length > 0 ? 0.02 : 0) * sum + 1e-12);
+  }
+}
+// A round outline, and a tube's, is cut into other parts than in double, so that each has errors of its own, of which the batch's are up to
+// twice as large: all of them over all the light, within what is asked of a fast mode.
+TEST(SpecularBatch, MomentsOfRoundLightsAndTubesAreCloseToTheReference) {
+  for (const Kind kind : {Kind::sphere, Kind::disk, Kind::capsule}) {
     Random random(4);
     for (const bool two_sided : {false, true}) {
       double truths = 0;

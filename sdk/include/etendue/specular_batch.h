@@ -27,13 +27,13 @@ class SpecularBatch {
  public:
   // `ltc`, `ltc-two-lobes`, `ltc-two-caps` and `moments`; nothing for other names.
   static std::optional<SpecularRule> rule_named(std::string_view method);
-  // Errors: METHOD_SHAPE: the rule has no vectors for the light: rectangles (not by caps), spheres, disks and suns, uniform and without a
-  // window.
+  // Errors: METHOD_SHAPE: the rule has no vectors for the light: rectangles (not by caps), spheres, disks and suns, and by moments
+  // tubes with round caps, uniform and without a window.
   static Result<SpecularBatch> of(SpecularRule rule, const Emitter& emitter);
 
   // Of each point the luminance for a light of 1 cd/m2, as factors on f0 and on f90: what the method gives in double, but for roundings of
   // floats, within 2e-3 of the value, 1e-4, and 2e-6 / (alpha n.v); on the mean 5e-5 of the light; of
-  // round lights by moments 1e-2, whose outline is in other parts. Points with a number that is not finite
+  // round lights and tubes by moments 1e-2, whose outline is in other parts. Points with a number that is not finite
   // become `where_none`, and are counted. Errors: BATCH_SIZES_DIFFER.
   BatchOutcome shares(const SpecularPoints& points, std::span<float> of_f0, std::span<float> of_f90, float where_none) const;
   const Rgb& scale() const { return scale_; }  // cd/m2

@@ -42,6 +42,7 @@ Result<SpecularBatch> SpecularBatch::of(SpecularRule rule, const Emitter& emitte
     light = specular_rect(rule, white);
     if (!light) light = specular_round_moments(rule, white);
     if (!light) light = specular_round(rule, white);
+    if (!light) light = specular_tube(rule, white);
   }
   if (!light) return Error{"METHOD_SHAPE", std::string(name_of(rule)) + " has no vectors for this light", {}, {}, {}};
   return SpecularBatch(rule, std::move(light), luminance_of(emitter));

@@ -27,6 +27,8 @@ std::shared_ptr<const SpecularBatch::Light> specular_rect(SpecularRule rule, con
 bool is_round(const Emitter& emitter);
 std::shared_ptr<const SpecularBatch::Light> specular_round_moments(SpecularRule rule, const Emitter& white);
 std::shared_ptr<const SpecularBatch::Light> specular_round(SpecularRule rule, const Emitter& white);
+// The same of tubes with round caps, by moments.
+std::shared_ptr<const SpecularBatch::Light> specular_tube(SpecularRule rule, const Emitter& white);
 
 // The method in double at one point of a batch.
 SchlickShares in_double(SpecularRule rule, const Emitter& white, const SpecularPoints& points, std::size_t index);
