@@ -48,6 +48,12 @@ class LightPainter {
   struct Cell {
     double x, y, side;
   };
+  // A cell is quartered at least and at most so often, in between until two rules differ by no more than this share of the tolerance.
+  struct Halvings {
+    int most, least = 0;
+    double share = 1;
+    Halvings within() const { return {most - 1, std::max(least - 1, 0), share}; }
+  };
   struct Curvature {
     Rgb correction;   // from the centre's value to the pixel's mean
     double relative;  // |f_xx / f| + |f_yy / f|
@@ -88,7 +94,7 @@ class LightPainter {
   Measured over_places(std::uint32_t x, std::uint32_t y, const Integrand& light) const;
   Measured over_colours(std::uint32_t x, std::uint32_t y, double beta, const SurfacePoint& centre, RayCounts& counts) const;
   Reflected gauss_legendre(const Cell& cell, double beta, int side, RayCounts& counts) const;
-  Measured cubature(const Cell& cell, double beta, int halvings, RayCounts& counts) const;
+  Measured cubature(const Cell& cell, double beta, const Halvings& halvings, RayCounts& counts) const;
   Measured smooth(std::uint32_t x, std::uint32_t y, double beta, const std::optional<SurfacePoint>& centre, RayCounts& counts) const;
   Measured split(std::uint32_t x, std::uint32_t y, const Regions& regions, double beta, RayCounts& counts) const;
   // What is seen of the light itself, and what surfaces reflect of it, times beta, without shadows.

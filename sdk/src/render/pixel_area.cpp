@@ -21,6 +21,11 @@ int cells_for(double spread, double goal) {
   return static_cast<int>(std::clamp(side, static_cast<double>(fewest_cells), static_cast<double>(most_cells)));
 }
 
+bool has_profile(const StageLight& light) {
+  const auto* punctual = std::get_if<eval::PunctualEmitter>(&light.emitter.shape);
+  return punctual != nullptr && std::holds_alternative<eval::ProfileShape>(punctual->shape);
+}
+
 }  // namespace
 
 Reflected LightPainter::at(double x, double y, double beta, RayCounts& counts) const {
@@ -100,16 +105,17 @@ Reflected LightPainter::gauss_legendre(const Cell& cell, double beta, int side, 
 
 // Two rules; where they differ by more than the tolerance, the cell's quarters instead. Where the light is smooth the finer rule's error is
 // under a tenth of the difference, at a kink up to a third of it: a quarter stands for it.
-LightPainter::Measured LightPainter::cubature(const Cell& cell, double beta, int halvings, RayCounts& counts) const {
+LightPainter::Measured LightPainter::cubature(const Cell& cell, double beta, const Halvings& halvings, RayCounts& counts) const {
   const Reflected coarse = gauss_legendre(cell, beta, 2, counts), fine = gauss_legendre(cell, beta, 3, counts);
   const Rgb error = (fine.value - coarse.value) / 4.0;
-  const double allowed = std::max(tolerance_.relative * largest(fine.value), tolerance_.absolute);
-  if (halvings == 0 || largest(error) <= allowed) return {fine.value, squared(error), fine.bound, squared(error)};
+  const double allowed = std::max(tolerance_.relative * largest(fine.value), tolerance_.absolute) * halvings.share;
+  if (halvings.most == 0 || (halvings.least == 0 && largest(error) <= allowed))
+    return {fine.value, squared(error), fine.bound, squared(error)};
   Measured out;
   for (int quarter = 0; quarter < 4; ++quarter) {
     const double half = cell.side / 2;
     const int column = quarter % 2, row = quarter / 2;
-    const Measured part = cubature({cell.x + column * half, cell.y + row * half, half}, beta, halvings - 1, counts);
+    const Measured part = cubature({cell.x + column * half, cell.y + row * half, half}, beta, halvings.within(), counts);
     out.value += part.value / 4.0;
     out.variance += part.variance / 16.0;
     out.supposed += part.supposed / 16.0;
@@ -139,14 +145,19 @@ LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, do
   constexpr double steep = 0.1;
   const Rgb any_colour;
   const std::optional<Curvature> bend = curvature(x, y, any_colour);
+  const Cell whole{static_cast<double>(x), static_cast<double>(y), 1};
+  // A profile is linear between its directions. Of a slope that changes by J within the pixel the second differences, which take it for a
+  // bend, miss up to J / 12; quarters find it.
+  constexpr double kinked = 1e-3;
+  constexpr Halvings kinks{halvings_for_points, 1, 0.1};
+  if (has_profile(light_) && !(bend && bend->relative < kinked)) return cubature(whole, beta, kinks, counts);
   // Beside an edge the second differences are missing. A costly light that hardly changes from pixel to pixel needs none.
   if ((bend && bend->relative < gentle_bend) || (!bend && known_[pixel] != 0 && !cheap && is_level(x, y, any_colour))) {
     out.value += (black_[pixel] + (bend ? bend->correction : Rgb{})) * beta;
     out.bound = static_cast<double>(centre_bound_[pixel]) * beta;
     return out;
   }
-  const Cell whole{static_cast<double>(x), static_cast<double>(y), 1};
-  if (bend && bend->relative > steep) return cubature(whole, beta, cheap ? halvings_for_points : halvings_for_areas, counts);
+  if (bend && bend->relative > steep) return cubature(whole, beta, {cheap ? halvings_for_points : halvings_for_areas}, counts);
   const Reflected mean = gauss_legendre(whole, beta, 2, counts);
   return {mean.value, {}, mean.bound, {}};
 }
