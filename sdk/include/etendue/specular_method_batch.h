@@ -18,8 +18,8 @@ class SpecularMethodBatch {
  public:
   // Those of specular_methods.h that have been written in vectors.
   static std::span<const std::string_view> names();
-  // Errors: METHOD_SHAPE: the method has no vectors for the light: one-sided rectangles and disks, spheres, tubes with round caps and a
-  // length, uniform and without a window.
+  // Errors: METHOD_SHAPE: the method has no vectors for the light: one-sided rectangles and disks, spheres, suns, tubes with round caps and
+  // a length, uniform and without a window.
   static Result<SpecularMethodBatch> of(std::string_view method, const Emitter& emitter);
 
   // As SpecularBatch::shares: what the method gives in double, but for roundings of floats, within 2e-3 of the value or 1e-5 of
