@@ -22,14 +22,11 @@ class CodeTable {
   }
   double linear(std::uint16_t code) const { return linear_[code]; }
   int top() const { return top_; }
-  // Nearest in linear light. `value` is held within 0..1, NaN counts as 0.
+  // Nearest in linear light, the upper one of two that are as near. `value` is held within 0..1, NaN counts as 0.
   std::uint16_t nearest(double value) const {
     const double held = value > 0 ? std::min(value, 1.0) : 0.0;
-    const int code = static_cast<int>(std::lround((srgb_ ? SrgbEncoder::get()(held) : held) * top_));
-    int best = code;
-    for (const int other : {code - 1, code + 1})
-      if (other >= 0 && other <= top_ && distance(other, held) < distance(best, held)) best = other;
-    return static_cast<std::uint16_t>(best);
+    const int below = std::min(static_cast<int>((srgb_ ? SrgbEncoder::get()(held) : held) * top_), top_ - 1);
+    return static_cast<std::uint16_t>(distance(below, held) < distance(below + 1, held) ? below : below + 1);
   }
 
  private:

@@ -16,15 +16,27 @@ inline double rms_of(const ReaderDeviation& d) { return std::sqrt((d.diffuse.rms
 
 class DeviationSums {
  public:
+  // Colours with what they are in steps of 8-bit sRGB.
+  struct Stepped {
+    explicit Stepped(const ColourPair& pair) : linear(pair) {
+      for (int c = 0; c < 3; ++c) {
+        encoded.diffuse[c] = SrgbEncoder::get()(pair.diffuse[c]);
+        encoded.f0[c] = SrgbEncoder::get()(pair.f0[c]);
+      }
+    }
+    ColourPair linear, encoded;
+  };
   // `count` texels with the same colours.
-  void add(const ColourPair& found, const ColourPair& wanted, std::uint64_t count = 1) {
+  void add(const ColourPair& found, const Stepped& wanted, std::uint64_t count) {
+    const Stepped here(found);
     for (int c = 0; c < 3; ++c) {
-      diffuse_.add(found.diffuse[c] - wanted.diffuse[c], count);
-      f0_.add(found.f0[c] - wanted.f0[c], count);
-      diffuse_steps_.add(steps(found.diffuse[c], wanted.diffuse[c]), count);
-      f0_steps_.add(steps(found.f0[c], wanted.f0[c]), count);
+      diffuse_.add(found.diffuse[c] - wanted.linear.diffuse[c], count);
+      f0_.add(found.f0[c] - wanted.linear.f0[c], count);
+      diffuse_steps_.add(255 * (here.encoded.diffuse[c] - wanted.encoded.diffuse[c]), count);
+      f0_steps_.add(255 * (here.encoded.f0[c] - wanted.encoded.f0[c]), count);
     }
   }
+  void add(const ColourPair& found, const ColourPair& wanted, std::uint64_t count = 1) { add(found, Stepped(wanted), count); }
   void add(const DeviationSums& other) {
     diffuse_.add(other.diffuse_);
     f0_.add(other.f0_);
@@ -49,7 +61,6 @@ class DeviationSums {
     }
     Deviation deviation() const { return {count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0, max}; }
   };
-  static double steps(double a, double b) { return 255 * (SrgbEncoder::get()(a) - SrgbEncoder::get()(b)); }
 
   Sum diffuse_, f0_, diffuse_steps_, f0_steps_;
 };

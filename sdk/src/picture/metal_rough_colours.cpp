@@ -2,9 +2,9 @@
 #include "metal_rough_colours.h"
 
 #include <algorithm>
-#include <span>
 
 #include "best_masks.h"
+#include "without_search.h"
 
 namespace etendue {
 namespace {
@@ -39,6 +39,23 @@ MetalRoughColours metal_rough_with(const MaskCost& best, const ColourPair& pair,
     if (costs_of_held(colours, pair).sum(weight) <= best.cost + equal_costs) return colours;
   }
   return metal_rough_of_held(best.metal, pair, weight);
+}
+
+void metal_rough_of_all(std::span<const ColourPair> pairs, double weight, std::vector<MetalRoughColours>& out) {
+  out.resize(pairs.size());
+  std::vector<ColourPair> open;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (const std::optional<double> mask = mask_without_search(pairs[i], weight)) {
+      out[i] = metal_rough_of_held(*mask, pairs[i], weight);
+      continue;
+    }
+    open.push_back(pairs[i]);
+    places.push_back(i);
+  }
+  std::vector<MaskCost> masks(open.size());
+  best_masks(open, weight, masks);
+  for (std::size_t i = 0; i < open.size(); ++i) out[places[i]] = metal_rough_with(masks[i], open[i], weight);
 }
 
 }  // namespace etendue

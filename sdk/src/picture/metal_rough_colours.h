@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace etendue {
 
@@ -60,5 +62,8 @@ inline ReaderCosts costs_of_held(const MetalRoughColours& colours, const ColourP
 // metal_rough_of() of a pair that is held, whose best mask is known.
 struct MaskCost;
 MetalRoughColours metal_rough_with(const MaskCost& best, const ColourPair& pair, double weight);
+
+// metal_rough_of() of pairs that are held; searched together where a search is needed.
+void metal_rough_of_all(std::span<const ColourPair> pairs, double weight, std::vector<MetalRoughColours>& out);
 
 }  // namespace etendue

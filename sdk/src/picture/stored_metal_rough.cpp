@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "best_masks.h"
 #include "deviations.h"
 #include "reader_weight.h"
 
@@ -36,7 +35,7 @@ double StoredMetalRough::full_rms(std::span<const ColourPair> samples) const {
   std::vector<Choice> choices;
   best_of(samples, choices);
   DeviationSums sums;
-  for (std::size_t i = 0; i < samples.size(); ++i) sums.add(read(choices[i].codes, samples[i]).full, samples[i]);
+  for (std::size_t i = 0; i < samples.size(); ++i) sums.add(read(choices[i].codes).full, samples[i]);
   return rms_of(sums.deviation());
 }
 
@@ -72,10 +71,10 @@ bool StoredMetalRough::is_as_good(std::uint16_t metal_code, const ColourPair& pa
 }
 
 void StoredMetalRough::best_of(std::span<const ColourPair> pairs, std::vector<Choice>& out) const {
-  std::vector<MaskCost> masks(pairs.size());
-  best_masks(pairs, weight_, masks);
+  std::vector<MetalRoughColours> ideal;
+  metal_rough_of_all(pairs, weight_, ideal);
   out.resize(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) out[i] = best_beside(metal_rough_with(masks[i], pairs[i], weight_), pairs[i]);
+  for (std::size_t i = 0; i < pairs.size(); ++i) out[i] = best_beside(ideal[i], pairs[i]);
 }
 
 StoredMetalRough::Choice StoredMetalRough::best_beside(const MetalRoughColours& ideal, const ColourPair& pair) const {
@@ -119,7 +118,7 @@ StoredMetalRough::Codes StoredMetalRough::towards(std::uint16_t wanted, const Ch
   return gone > 0 ? at(code_at(gone), pair).codes : choice.codes;
 }
 
-TexelValue StoredMetalRough::read(const Codes& codes, const ColourPair& pair) const {
+ReadColours StoredMetalRough::read(const Codes& codes) const {
   MetalRoughColours stored;
   stored.metal = mask_.linear(codes[metal]);
   for (int c = 0; c < 3; ++c) {
@@ -127,7 +126,7 @@ TexelValue StoredMetalRough::read(const Codes& codes, const ColourPair& pair) co
     stored.base[c] = colour_.linear(codes[channel]);
     stored.dielectric_f0[c] = largest_k_[c] * colour_.linear(codes[dielectric + channel]);
   }
-  return {codes, pair, in_core_reader(stored), in_full_reader(stored), {}};
+  return {in_core_reader(stored), in_full_reader(stored)};
 }
 
 }  // namespace etendue

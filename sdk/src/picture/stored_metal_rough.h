@@ -3,13 +3,23 @@
 
 #include "code_table.h"
 #include "metal_rough_colours.h"
-#include "texel_cache.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace etendue {
+
+// What other codes may cost a core-only reader and a full one.
+struct CostLimits {
+  float core = 0, full = 0;
+};
+
+// What the two kinds of readers make of a texel.
+struct ReadColours {
+  ColourPair core, full;
+};
 
 class StoredMetalRough {
  public:
@@ -33,8 +43,7 @@ class StoredMetalRough {
   void best_of(std::span<const ColourPair> pairs, std::vector<Choice>& out) const;
   // Of masks that are as good the one nearest to `wanted`, on the way there from the best one.
   Codes towards(std::uint16_t wanted, const Choice& choice, const ColourPair& pair) const;
-  // What readers make of codes.
-  TexelValue read(const Codes& codes, const ColourPair& pair) const;
+  ReadColours read(const Codes& codes) const;
 
   double weight() const { return weight_; }
   const CodeTable& colour() const { return colour_; }

@@ -18,7 +18,9 @@ namespace etendue {
 Rgb dielectric_f0_of(const Material& material, const MetalRough& model);
 
 inline Rgb product(const Rgb& a, const Rgb& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-inline Rgb rgb_at(const TexelKey& key, std::size_t first) { return {key[first], key[first + 1], key[first + 2]}; }
+inline Rgb rgb_at(const TexelKey& key, std::size_t first) {
+  return {number_at(key, first), number_at(key, first + 1), number_at(key, first + 2)};
+}
 inline const Texture* pointer_to(const std::optional<Texture>& texture) { return texture ? &*texture : nullptr; }
 
 // Converts what has textures; materials with the same textures and factors get the same new ones.

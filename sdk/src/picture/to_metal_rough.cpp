@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "best_masks.h"
 #include "metal_mask_rows.h"
 #include "reader_weight.h"
 #include "stored_metal_rough.h"
 #include "texel_samples.h"
+#include "without_search.h"
 
 namespace etendue {
 namespace {
@@ -19,34 +19,41 @@ namespace {
 constexpr double close_share = 1.005, close_rms = 1e-4;
 
 double largest(const Rgb& c) { return std::max({c.x, c.y, c.z}); }
-using Entries = std::span<TexelCache::Entry* const>;
 
-// A texel of both textures.
-TexelKey key_at(const TextureRows::Row& row, std::size_t x) {
+// A texel of both textures, and a mask that it shall come near to.
+TexelKey key_at(const TextureRows::Row& row, std::size_t x, float wanted = 0) {
   const float *d = row.rgba[0].data() + 4 * x, *s = row.rgba[1].data() + 4 * x;
-  return {d[0], d[1], d[2], s[0], s[1], s[2], 0, 0};
+  return {word_of(d[0], d[1]), word_of(d[2], wanted), word_of(s[0], s[1]), word_of(s[2], 0)};
 }
 
-struct Sums {
-  DeviationSums core, full;
-  auto leaving() {
-    return [this](const TexelValue& value, std::uint64_t count) {
-      core.add(value.core, value.wanted, count);
-      full.add(value.full, value.wanted, count);
-    };
-  }
+// What a thread of the survey has.
+struct Surveyor {
+  struct Texels {
+    std::uint64_t count = 0;
+  };
+  using Cache = TexelCache<Texels>;
+  Cache cache;
+  DeviationSums core;
+  Rgb largest_k{0, 0, 0};
+  std::vector<std::uint32_t> open;  // texels of a row that matter
+  std::vector<ColourPair> pairs;    // that are solved together
+  std::vector<MetalRoughColours> colours;
 };
 
-// What a thread has.
+// What a thread of the conversion has.
 struct Worker {
-  TexelCache cache, stored;  // texels on their own; with the metal mask that they get beside their neighbours
-  Sums sums;
-  Rgb largest_k{0, 0, 0};
+  struct Found {
+    StoredMetalRough::Codes codes{};
+    std::uint64_t count = 0;
+  };
+  using Choices = TexelCache<StoredMetalRough::Choice>;
+  Choices choices;           // of texels on their own
+  TexelCache<Found> stored;  // with the metal mask that they get beside their neighbours
+  DeviationSums core, full;
   MaskVariation best;
   std::vector<std::uint16_t> wanted;  // masks of a row
   std::vector<ColourPair> pairs;      // that are solved together
-  std::vector<MaskCost> masks;
-  std::vector<StoredMetalRough::Choice> choices;
+  std::vector<StoredMetalRough::Choice> solved;
 };
 
 // From texels to pairs of colours.
@@ -54,13 +61,14 @@ class Pairs {
  public:
   explicit Pairs(const SpecularGlossiness& model) : model_(model) {}
   ColourPair operator()(const TexelKey& key) const {
-    const SpecularGlossiness texel{product(rgb_at(key, 0), model_.diffuse), product(rgb_at(key, 3), model_.specular), 1};
+    const SpecularGlossiness texel{product(rgb_at(key, 0), model_.diffuse), product(rgb_at(key, 4), model_.specular), 1};
     const TwoColour two = two_colour_of(texel);
     return held(ColourPair{two.diffuse, two.f0});
   }
+  template <class Entries>
   void all(Entries entries, std::vector<ColourPair>& out) const {
     out.clear();
-    for (const TexelCache::Entry* entry : entries) out.push_back((*this)(entry->key));
+    for (const auto* entry : entries) out.push_back((*this)(entry->key));
   }
 
  private:
@@ -76,42 +84,52 @@ struct Survey {
 };
 
 // The weight is not known yet: the largest f0 is that of one which most materials stay below, since the more the full reader counts, the
-// more of it is asked for.
-Result<Survey> survey_of(TextureRows& rows, const Pairs& pairs, const ConversionOptions& options, unsigned threads,
+// more of it is asked for. Texels that are certainly below what others ask for are passed by, unless the diffuse colour as it is may do
+// (`alone`), whose deviation is that of all texels.
+Result<Survey> survey_of(TextureRows& rows, const Pairs& pairs, const ConversionOptions& options, unsigned threads, bool alone,
                          const std::string& name) {
   const double weight = options.readers == Readers::core ? weight_for_core : options.bits == 8 ? 1e3 : 1e5;
-  std::vector<Worker> workers(threads);
+  std::vector<Surveyor> workers(threads);
+  const auto leaving = [&](Surveyor& worker) {
+    return [&](const TexelKey& key, const Surveyor::Texels& texels) {
+      if (!alone) return;
+      const ColourPair pair = pairs(key);
+      worker.core.add(in_core_reader({pair.diffuse, 0, {}}), pair, texels.count);
+    };
+  };
   Samples samples(rows.width(), rows.height());
   TextureRows::Work work;
   work.row = [&](const TextureRows::Row& row) {
-    Worker& worker = workers[row.thread];
+    Surveyor& worker = workers[row.thread];
     samples.add_row(row.y, [&](std::uint32_t x) { return pairs(key_at(row, x)); });
-    const auto solve = [&](Entries entries) {
+    worker.open.clear();
+    TexelKey last{};
+    for (std::uint32_t x = 0; x < rows.width(); ++x) {
+      const TexelKey key = key_at(row, x);
+      const bool again = x > 0 && key == last;
+      last = key;
+      if (alone || (!again && !dielectric_is_below(worker.largest_k, pairs(key), weight))) worker.open.push_back(x);
+    }
+    const auto solve = [&](std::span<Surveyor::Cache::Entry* const> entries) {
       pairs.all(entries, worker.pairs);
-      worker.masks.resize(entries.size());
-      best_masks(worker.pairs, weight, worker.masks);
-      for (std::size_t i = 0; i < entries.size(); ++i) {
-        TexelValue& value = entries[i]->value;
-        value.wanted = worker.pairs[i];
-        const MetalRoughColours colours = metal_rough_with(worker.masks[i], value.wanted, weight);
+      metal_rough_of_all(worker.pairs, weight, worker.colours);
+      for (const MetalRoughColours& colours : worker.colours)
         for (int c = 0; c < 3 && colours.metal < 1; ++c) worker.largest_k[c] = std::max(worker.largest_k[c], colours.dielectric_f0[c]);
-        value.core = in_core_reader({value.wanted.diffuse, 0, {}});
-      }
     };
-    worker.cache.row(
-        rows.width(), [&](std::uint32_t x) { return key_at(row, x); }, solve, [](std::uint32_t, const TexelValue&) {},
-        worker.sums.leaving());
+    worker.cache.together(
+        static_cast<std::uint32_t>(worker.open.size()), [&](std::uint32_t i) { return key_at(row, worker.open[i]); }, solve,
+        [](std::uint32_t, Surveyor::Texels& texels) { ++texels.count; }, leaving(worker));
   };
   if (Status done = rows.for_each(threads, options.progress, "survey of " + name, work); !done) return done.error();
   Survey survey;
-  Sums sums;
-  for (Worker& worker : workers) {
-    worker.cache.empty(worker.sums.leaving());
+  DeviationSums core;
+  for (Surveyor& worker : workers) {
+    worker.cache.empty(leaving(worker));
     for (int c = 0; c < 3; ++c) survey.largest_k[c] = std::max(survey.largest_k[c], worker.largest_k[c]);
-    sums.core.add(worker.sums.core);
+    core.add(worker.core);
   }
   survey.samples.assign(samples.pairs().begin(), samples.pairs().end());
-  survey.core = sums.core.deviation();
+  survey.core = core.deviation();
   return survey;
 }
 
@@ -146,7 +164,7 @@ Result<MaterialChange> TextureConversion::to_metal_rough(Material& material) {
   Result<TextureRows> rows = open_rows({pointer_to(material.base_colour_texture), pointer_to(material.specular_gloss_texture)});
   if (!rows) return rows.error();
   const Pairs pairs(model);
-  const Result<Survey> survey = survey_of(*rows, pairs, options_, threads_, material.name);
+  const Result<Survey> survey = survey_of(*rows, pairs, options_, threads_, !has_specular, material.name);
   if (!survey) return survey.error();
   const Rgb largest_k = survey->largest_k;
   StoredMetalRough stored(options_.bits, largest_k);
@@ -182,40 +200,38 @@ Result<MaterialChange> TextureConversion::to_metal_rough(Material& material) {
 
   std::vector<Worker> workers(threads_);
   MetalMaskRows masks(rows->width(), rows->height(), static_cast<std::uint16_t>(mask.top()));
+  const auto leaving = [&](Worker& worker) {
+    return [&](const TexelKey& key, const Worker::Found& found) {
+      const DeviationSums::Stepped asked(pairs(key));
+      const ReadColours read = stored.read(found.codes);
+      worker.core.add(read.core, asked, found.count);
+      worker.full.add(read.full, asked, found.count);
+    };
+  };
   MaskVariation variation;
   std::vector<std::uint16_t> last_masks;
   TextureRows::Work work;
   work.survey = [&](const TextureRows::Row& row) {
     Worker& worker = workers[row.thread];
-    worker.cache.row(
+    worker.choices.together(
         rows->width(), [&](std::uint32_t x) { return key_at(row, x); },
-        [&](Entries entries) {
+        [&](std::span<Worker::Choices::Entry* const> entries) {
           pairs.all(entries, worker.pairs);
-          stored.best_of(worker.pairs, worker.choices);
-          for (std::size_t i = 0; i < entries.size(); ++i) {
-            entries[i]->value.codes = worker.choices[i].codes;
-            entries[i]->value.limits = worker.choices[i].limits;
-          }
+          stored.best_of(worker.pairs, worker.solved);
+          for (std::size_t i = 0; i < entries.size(); ++i) entries[i]->value = worker.solved[i];
         },
-        [&](std::uint32_t x, const TexelValue& value) {
-          masks.put(x, row.y, {value.codes, value.limits});
-        },
-        [](auto...) {});
+        [&](std::uint32_t x, const StoredMetalRough::Choice& choice) { masks.put(x, row.y, choice); }, [](auto...) {});
     masks.finish_row(row.y);
   };
   work.row = [&](const TextureRows::Row& row) {
     Worker& worker = workers[row.thread];
     masks.wanted_row(row.y, worker.wanted);
-    for (std::uint32_t x = 0; x < rows->width(); ++x) {
-      const StoredMetalRough::Choice& choice = masks.at(x, row.y);
-      const std::uint16_t wanted = worker.wanted[x];
-      TexelKey key = key_at(row, x);
-      key[6] = static_cast<float>(wanted);
-      const auto find = [&](const TexelKey& texel) {
-        const ColourPair pair = pairs(texel);
-        return stored.read(stored.towards(wanted, choice, pair), pair);
-      };
-      const TexelValue& value = worker.stored.at(key, find, worker.sums.leaving());
+    const auto wanted_key = [&](std::uint32_t x) { return key_at(row, x, static_cast<float>(worker.wanted[x])); };
+    const auto find = [&](std::uint32_t x, const TexelKey& key) {
+      return Worker::Found{stored.towards(worker.wanted[x], masks.at(x, row.y), pairs(key)), 0};
+    };
+    const auto put = [&](std::uint32_t x, Worker::Found& value) {
+      ++value.count;
       std::uint16_t *base = outputs[base_colour].texel(x, row.y), *rough = outputs[metal_rough].texel(x, row.y);
       std::copy_n(value.codes.begin(), 3, base);
       if (has_alpha) base[3] = mask.nearest(static_cast<double>(row.rgba[0][std::size_t{4} * x + 3]));
@@ -223,7 +239,8 @@ Result<MaterialChange> TextureConversion::to_metal_rough(Material& material) {
       rough[1] = mask.nearest(1 - model.glossiness * static_cast<double>(row.rgba[1][std::size_t{4} * x + 3]));
       rough[2] = value.codes[StoredMetalRough::metal];
       std::copy_n(value.codes.begin() + StoredMetalRough::dielectric, 3, outputs[specular_colour].texel(x, row.y));
-    }
+    };
+    worker.stored.each(rows->width(), wanted_key, find, put, leaving(worker));
     const std::uint16_t* best = masks.best_row(row.y);
     worker.best.add_row(
         rows->width(), [&](std::uint32_t x) { return best[x]; }, row.y > 0 ? masks.best_row(row.y - 1) : nullptr);
@@ -240,17 +257,17 @@ Result<MaterialChange> TextureConversion::to_metal_rough(Material& material) {
     return outputs[picture].write(begin, count);
   };
   if (Status done = rows->for_each(threads_, options_.progress, "textures of " + material.name, work); !done) return done.error();
-  Sums sums;
+  DeviationSums core, full;
   MaskVariation best_variation;
   for (Worker& worker : workers) {
-    worker.stored.empty(worker.sums.leaving());
-    sums.core.add(worker.sums.core);
-    sums.full.add(worker.sums.full);
+    worker.stored.empty(leaving(worker));
+    core.add(worker.core);
+    full.add(worker.full);
     best_variation.add(worker.best);
   }
   if (Status closed = close_all(outputs); !closed) return closed.error();
-  change.core = sums.core.deviation();
-  change.full = sums.full.deviation();
+  change.core = core.deviation();
+  change.full = full.deviation();
   change.metal_variation = variation.mean(mask.top());
   change.metal_variation_of_best = best_variation.mean(mask.top());
 

@@ -13,17 +13,23 @@ namespace {
 class StoredSpecGloss {
  public:
   explicit StoredSpecGloss(int bits) : colour_(bits, true), mask_(bits, false) {}
-  TexelValue operator()(const ColourPair& pair) const {
-    TexelValue out;
+  using Codes = std::array<std::uint16_t, 6>;
+  Codes operator()(const ColourPair& pair) const {
+    Codes codes{};
+    Rgb specular;
+    for (int c = 0; c < 3; ++c) specular[c] = colour_.linear(codes[static_cast<std::size_t>(c)] = colour_.nearest(pair.f0[c]));
+    const SpecularGlossiness wanted = specular_glossiness_of({pair.diffuse, specular, 1});
+    for (int c = 0; c < 3; ++c) codes[static_cast<std::size_t>(3 + c)] = colour_.nearest(wanted.diffuse[c]);
+    return codes;
+  }
+  ColourPair read(const Codes& codes) const {
     SpecularGlossiness stored;
-    for (int c = 0; c < 3; ++c) stored.specular[c] = colour_.linear(out.codes[static_cast<std::size_t>(c)] = colour_.nearest(pair.f0[c]));
-    const SpecularGlossiness wanted = specular_glossiness_of({pair.diffuse, stored.specular, 1});
-    for (int c = 0; c < 3; ++c)
-      stored.diffuse[c] = colour_.linear(out.codes[static_cast<std::size_t>(3 + c)] = colour_.nearest(wanted.diffuse[c]));
+    for (int c = 0; c < 3; ++c) {
+      stored.specular[c] = colour_.linear(codes[static_cast<std::size_t>(c)]);
+      stored.diffuse[c] = colour_.linear(codes[static_cast<std::size_t>(3 + c)]);
+    }
     const TwoColour read = two_colour_of(stored);
-    out.wanted = pair;
-    out.core = out.full = {read.diffuse, read.f0};
-    return out;
+    return {read.diffuse, read.f0};
   }
   const CodeTable& colour() const { return colour_; }
   const CodeTable& mask() const { return mask_; }
@@ -34,11 +40,12 @@ class StoredSpecGloss {
 
 // What a thread has.
 struct Worker {
-  TexelCache cache;
+  struct Found {
+    StoredSpecGloss::Codes codes{};
+    std::uint64_t count = 0;
+  };
+  TexelCache<Found> cache;
   DeviationSums sums;
-  auto leaving() {
-    return [this](const TexelValue& value, std::uint64_t count) { sums.add(value.full, value.wanted, count); };
-  }
 };
 
 }  // namespace
@@ -65,9 +72,9 @@ Result<MaterialChange> TextureConversion::to_spec_gloss(Material& material) {
   const auto pair_of = [&](const TexelKey& key) {
     Rgb k;
     for (int c = 0; c < 3; ++c)
-      k[c] = std::min(root * root * lobe.colour[c] * static_cast<double>(key[static_cast<std::size_t>(4 + c)]), 1.0) * lobe.factor *
-             static_cast<double>(key[7]);
-    return in_full_reader({product(rgb_at(key, 0), model.base_colour), model.metallic * static_cast<double>(key[3]), k});
+      k[c] = std::min(root * root * lobe.colour[c] * static_cast<double>(number_at(key, static_cast<std::size_t>(4 + c))), 1.0) *
+             lobe.factor * static_cast<double>(number_at(key, 7));
+    return in_full_reader({product(rgb_at(key, 0), model.base_colour), model.metallic * static_cast<double>(number_at(key, 3)), k});
   };
 
   if (Status made = make_folder(); !made) return made.error();
@@ -79,15 +86,19 @@ Result<MaterialChange> TextureConversion::to_spec_gloss(Material& material) {
   outputs.emplace_back(options_.folder / (stem + "_specularGlossiness.png"), 4);
   if (Status opened = open_all(outputs, *rows); !opened) return opened.error();
   std::vector<Worker> workers(threads_);
+  const auto leaving = [&](Worker& worker) {
+    return [&](const TexelKey& key, const Worker::Found& found) { worker.sums.add(solve.read(found.codes), pair_of(key), found.count); };
+  };
   TextureRows::Work work;
   work.row = [&](const TextureRows::Row& row) {
     Worker& worker = workers[row.thread];
     const auto key_at = [&](std::uint32_t x) {
       const std::size_t at = std::size_t{4} * x;
       const float *b = row.rgba[0].data() + at, *m = row.rgba[1].data() + at, *k = row.rgba[2].data() + at;
-      return TexelKey{b[0], b[1], b[2], m[2], k[0], k[1], k[2], row.rgba[3][at + 3]};
+      return TexelKey{word_of(b[0], b[1]), word_of(b[2], m[2]), word_of(k[0], k[1]), word_of(k[2], row.rgba[3][at + 3])};
     };
-    const auto put = [&](std::uint32_t x, const TexelValue& value) {
+    const auto put = [&](std::uint32_t x, Worker::Found& value) {
+      ++value.count;
       std::uint16_t *diffuse = outputs[0].texel(x, row.y), *gloss = outputs[1].texel(x, row.y);
       const std::size_t at = std::size_t{4} * x;
       std::copy_n(value.codes.begin() + 3, 3, diffuse);
@@ -95,12 +106,12 @@ Result<MaterialChange> TextureConversion::to_spec_gloss(Material& material) {
       std::copy_n(value.codes.begin(), 3, gloss);
       gloss[3] = solve.mask().nearest(1 - model.roughness * static_cast<double>(row.rgba[1][at + 1]));
     };
-    worker.cache.row(
+    worker.cache.each(
         rows->width(), key_at,
-        [&](std::span<TexelCache::Entry* const> entries) {
-          for (TexelCache::Entry* entry : entries) entry->value = solve(pair_of(entry->key));
+        [&](std::uint32_t, const TexelKey& key) {
+          return Worker::Found{solve(pair_of(key)), 0};
         },
-        put, worker.leaving());
+        put, leaving(worker));
   };
   work.writers = outputs.size();
   work.write = [&](std::size_t picture, std::uint32_t begin, std::uint32_t count) { return outputs[picture].write(begin, count); };
@@ -109,7 +120,7 @@ Result<MaterialChange> TextureConversion::to_spec_gloss(Material& material) {
   change.texels = std::uint64_t{rows->width()} * rows->height();
   DeviationSums sums;
   for (Worker& worker : workers) {
-    worker.cache.empty(worker.leaving());
+    worker.cache.empty(leaving(worker));
     sums.add(worker.sums);
   }
   change.core = change.full = sums.deviation();
