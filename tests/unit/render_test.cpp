@@ -479,19 +479,18 @@ TEST(Render, KinksOfAProfileAreFoundWithinPixels) {
   light.emission.given = Emission::Given::as_file;
   light.transform = facing_down(light.transform.translation);
   scene.lights.push_back(light);
-  constexpr std::uint32_t side = 40, parts = 16;
+  constexpr std::size_t side = 40, parts = 16;
   const Rendered coarse = rendered(scene, small(side, side)), fine = rendered(scene, small(side * parts, side * parts));
   const std::vector<float>&means = coarse.picture.find("")->pixels, &variances = coarse.picture.find("variance")->pixels,
         &parts_of = fine.picture.find("")->pixels;
   int lit = 0;
-  for (std::uint32_t y = 0; y < side; ++y)
-    for (std::uint32_t x = 0; x < side; ++x) {
+  for (std::size_t y = 0; y < side; ++y)
+    for (std::size_t x = 0; x < side; ++x) {
       double sum = 0;
-      for (std::uint32_t j = 0; j < parts; ++j)
-        for (std::uint32_t i = 0; i < parts; ++i)
-          sum += static_cast<double>(parts_of[3 * (std::size_t{y * parts + j} * side * parts + x * parts + i)]);
+      for (std::size_t j = 0; j < parts; ++j)
+        for (std::size_t i = 0; i < parts; ++i) sum += static_cast<double>(parts_of[3 * ((y * parts + j) * side * parts + x * parts + i)]);
       const double expected = sum / (parts * parts);
-      const std::size_t at = 3 * (std::size_t{y} * side + x);
+      const std::size_t at = 3 * (y * side + x);
       const double off = std::abs(static_cast<double>(means[at]) - expected);
       EXPECT_LE(off, 4 * std::sqrt(static_cast<double>(variances[at])) + 2.5e-4 * expected) << x << ' ' << y;
       lit += expected > 0;
