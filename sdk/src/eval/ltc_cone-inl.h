@@ -82,6 +82,35 @@ HWY_INLINE ConeAxis axis_of(const Ellipse& e) {
                  hn::Abs(dot(e.centre, uv)), e.centre);
 }
 
+// The cone's own axes, right-handed, and those of the ellipse: its rim is (A cos t, B sin t, 1) along e1, e2 and e0.
+struct ConeFrame {
+  Vector3 e1, e2, e0;
+  Lanes a, b;
+};
+HWY_INLINE ConeFrame frame_of(const Ellipse& seen, const ConeAxis& cone) {
+  const Floats d;
+  const Lanes zero = number(0), one = number(1);
+  // Any two axes across e0 (Duff et al. 2017), and how far the cone's own are turned from there.
+  const Vector3& e0 = cone.e0;
+  const Lanes side = hn::CopySign(one, e0.z), f = hn::Neg(inverse(d, hn::Add(side, e0.z))), g = hn::Mul(hn::Mul(e0.x, e0.y), f);
+  const Vector3 t1{hn::MulAdd(hn::Mul(side, f), hn::Mul(e0.x, e0.x), one), hn::Mul(side, g), hn::Neg(hn::Mul(side, e0.x))};
+  const Vector3 t2{g, hn::MulAdd(f, hn::Mul(e0.y, e0.y), side), hn::Neg(e0.y)};
+  const auto form = [&](const Vector3& a, const Vector3& b) ETENDUE_INLINE_LAMBDA {
+    return hn::MulAdd(dot(seen.u, a), dot(seen.u, b),
+                      hn::MulSub(dot(seen.v, a), dot(seen.v, b), hn::Mul(dot(seen.centre, a), dot(seen.centre, b))));
+  };
+  const Lanes half = hn::Mul(number(0.5f), hn::Sub(form(t1, t1), form(t2, t2))), mixed = form(t1, t2);
+  const Lanes over_spread = inverse_sqrt(d, hn::Max(hn::MulAdd(half, half, hn::Mul(mixed, mixed)), number(1e-36f)));
+  const Lanes c2 = hn::Mul(half, over_spread), large = hn::Sqrt(hn::MulAdd(number(0.5f), hn::Abs(c2), number(0.5f)));
+  const Lanes small = hn::Div(hn::Mul(hn::Mul(number(0.5f), mixed), over_spread), large);
+  const Lit turned = hn::Lt(half, zero);
+  const Lanes c = hn::IfThenElse(turned, hn::Abs(small), large), s = hn::IfThenElse(turned, hn::CopySign(large, mixed), small);
+  const Vector3 e1 = along(scaled(t1, c), t2, s), e2 = along(scaled(t2, c), t1, hn::Neg(s));
+  const Lanes over_m = inverse(d, cone.m), a2 = hn::Mul(cone.mu_1, over_m);
+  const Lanes a = hn::Sqrt(hn::Max(a2, number(1e-20f))), b = hn::Min(hn::Div(hn::Mul(cone.det, over_m), hn::Mul(a, hn::Sqrt(cone.m))), a);
+  return {e1, e2, e0, a, b};
+}
+
 // A place of the rim in the cone's own axes: cos t and sin t.
 struct RimPlace {
   Lanes c, s;
@@ -226,26 +255,9 @@ inline HWY_NOINLINE Lanes covered(const Cosines& cosines, const Ellipse& light, 
   Lanes sum =
       hn::Mul(hn::Mul(number(static_cast<float>(2 * pi)), cone.det), hn::Mul(cone.e0.z, inverse_sqrt(d, hn::Mul(cone.m, cone.slope))));
   if (!hn::AllFalse(d, hn::And(lit, cut))) {
-    // Any two axes across e0 (Duff et al. 2017), and how far the cone's own are turned from there.
-    const Vector3& e0 = cone.e0;
-    const Lanes side = hn::CopySign(one, e0.z), f = hn::Neg(inverse(d, hn::Add(side, e0.z))), g = hn::Mul(hn::Mul(e0.x, e0.y), f);
-    const Vector3 t1{hn::MulAdd(hn::Mul(side, f), hn::Mul(e0.x, e0.x), one), hn::Mul(side, g), hn::Neg(hn::Mul(side, e0.x))};
-    const Vector3 t2{g, hn::MulAdd(f, hn::Mul(e0.y, e0.y), side), hn::Neg(e0.y)};
-    const auto form = [&](const Vector3& a, const Vector3& b) ETENDUE_INLINE_LAMBDA {
-      return hn::MulAdd(dot(seen.u, a), dot(seen.u, b),
-                        hn::MulSub(dot(seen.v, a), dot(seen.v, b), hn::Mul(dot(seen.centre, a), dot(seen.centre, b))));
-    };
-    const Lanes half = hn::Mul(number(0.5f), hn::Sub(form(t1, t1), form(t2, t2))), mixed = form(t1, t2);
-    const Lanes over_spread = inverse_sqrt(d, hn::Max(hn::MulAdd(half, half, hn::Mul(mixed, mixed)), number(1e-36f)));
-    const Lanes c2 = hn::Mul(half, over_spread), large = hn::Sqrt(hn::MulAdd(number(0.5f), hn::Abs(c2), number(0.5f)));
-    const Lanes small = hn::Div(hn::Mul(hn::Mul(number(0.5f), mixed), over_spread), large);
-    const Lit turned = hn::Lt(half, zero);
-    const Lanes c = hn::IfThenElse(turned, hn::Abs(small), large), s = hn::IfThenElse(turned, hn::CopySign(large, mixed), small);
-    const Vector3 e1 = along(scaled(t1, c), t2, s), e2 = along(scaled(t2, c), t1, hn::Neg(s));
-    const Lanes over_m = inverse(d, cone.m), a2 = hn::Mul(cone.mu_1, over_m);
-    const Lanes a = hn::Sqrt(hn::Max(a2, number(1e-20f))), b = hn::Min(hn::Div(hn::Mul(cone.det, over_m), hn::Mul(a, hn::Sqrt(cone.m))), a);
-
-    const Rim rim(a, b, {e1.z, e2.z, e0.z});
+    const ConeFrame axes = frame_of(seen, cone);
+    const Vector3 &e1 = axes.e1, &e2 = axes.e2, &e0 = axes.e0;
+    const Rim rim(axes.a, axes.b, {e1.z, e2.z, e0.z});
     const Vector3 horizon = horizon_of(cosines);
     const Plane first(rim.n, own, rim), second({dot(e1, horizon), dot(e2, horizon), dot(e0, horizon)}, crossed, rim);
     const Lit rises_1 = hn::And(own, second.keeps(first.rises, rim)), sets_1 = hn::And(own, second.keeps(first.sets, rim));

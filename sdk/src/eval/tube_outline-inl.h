@@ -8,6 +8,7 @@
 #endif
 
 #include "eval/specular_batch-inl.h"
+#include "eval/specular_tube.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etendue::eval::HWY_NAMESPACE {
@@ -36,49 +37,91 @@ struct CapArc {
   Turn half;
   Vector3 at(const Turn& s) const { return along(along(centre, u, s.c), v, s.s); }
 };
-// From `from` on by twice `half`, which is up to half a turn.
+// From one place on to another, by twice `half`, which is up to half a turn.
 struct ArcPart {
-  Turn from, half;
+  Turn from, to, half;
   Lit seen;
 };
-// What the horizon z = 0 leaves of an arc: one part, or two where it takes something out of the middle.
-struct CutArc {
-  Vector3 begin, end;  // of the whole arc
-  ArcPart first, other;
-  Lit sets, rises;  // it goes below within the arc, and comes up
-  Vector3 setting, rising;
-};
-HWY_INLINE Turn half_between(const Turn& from, const Turn& to) {
+// `wide`: whether it is most of a turn where both ends all but coincide.
+HWY_INLINE Turn half_between(const Turn& from, const Turn& to, Lit wide) {
   const Lanes half = number(0.5f), dc = hn::Sub(to.c, from.c), ds = hn::Sub(to.s, from.s);
-  const Lanes sc = hn::Add(to.c, from.c), ss = hn::Add(to.s, from.s);
+  const Lanes sc = hn::Add(to.c, from.c), ss = hn::Add(to.s, from.s), chord2 = hn::MulAdd(dc, dc, hn::Mul(ds, ds));
   const Lanes c = hn::Mul(half, hn::Sqrt(hn::MulAdd(sc, sc, hn::Mul(ss, ss))));
-  const Lit wide = hn::Lt(hn::MulSub(from.c, to.s, hn::Mul(from.s, to.c)), number(0));
-  return {hn::IfThenElse(wide, hn::Neg(c), c), hn::Mul(half, hn::Sqrt(hn::MulAdd(dc, dc, hn::Mul(ds, ds))))};
+  const Lit turned = hn::Lt(hn::MulSub(from.c, to.s, hn::Mul(from.s, to.c)), number(0));
+  const Lit close = hn::Lt(chord2, number(1e-6f)), most = hn::Or(hn::And(close, wide), hn::AndNot(close, turned));
+  return {hn::IfThenElse(most, hn::Neg(c), c), hn::Mul(half, hn::Sqrt(chord2))};
 }
-// The circle is above the horizon around its highest place, between where it rises and where it sets. What its ends say of themselves
-// decides, so that the arc and the sides that go on from there agree whatever rounding does.
-HWY_INLINE CutArc cut_by_horizon(const CapArc& arc) {
+
+// What a plane leaves of a part of an arc: one part, or two where it takes something out of the middle.
+struct CutArc {
+  ArcPart first, other;
+  Turn sets, rises;
+  Lit does_set, does_rise;  // within the part
+};
+// Over the plane the arc's place at s has the height centre + u cos s + v sin s: above around its highest place, between where it rises and
+// where it sets. What its ends say of themselves decides, so that arcs and the sides that go on from there agree whatever rounding does.
+struct ArcHeight {
+  Lanes centre, u, v;
+};
+HWY_INLINE CutArc cut_arc(const ArcHeight& height, const ArcPart& part, Lanes at_from, Lanes at_to) {
   const Lanes zero = number(0), one = number(1);
-  const Lanes level2 = hn::MulAdd(arc.u.z, arc.u.z, hn::Mul(arc.v.z, arc.v.z));
+  const Lanes level2 = hn::MulAdd(height.u, height.u, hn::Mul(height.v, height.v));
   const Lanes over = inverse_sqrt(Floats(), hn::Max(level2, number(1e-24f)));
-  const Turn top{hn::Mul(arc.u.z, over), hn::Mul(arc.v.z, over)};
-  const Lanes reach = hn::Neg(within(hn::Mul(arc.centre.z, over), one));
+  const Turn top{hn::Mul(height.u, over), hn::Mul(height.v, over)};
+  const Lanes reach = hn::Neg(within(hn::Mul(height.centre, over), one));
   const Turn reached{reach, hn::Sqrt(positive(hn::NegMulAdd(reach, reach, one)))};
-  const Turn set = sum_of(top, reached), risen = sum_of(top, back(reached));
-  const Turn begin = back(arc.half), end = arc.half;
   CutArc cut;
-  cut.begin = arc.at(begin), cut.end = arc.at(end), cut.setting = arc.at(set), cut.rising = arc.at(risen);
-  const Lit begins = hn::Ge(cut.begin.z, zero), ends = hn::Ge(cut.end.z, zero), both = hn::And(begins, ends);
-  const Lit crosses = hn::Lt(hn::Mul(arc.centre.z, arc.centre.z), level2);
-  const Lit gap = hn::And(both, hn::And(crosses, hn::Ge(hn::Neg(top.c), arc.half.c)));
-  const Lit middle = hn::And(hn::Not(hn::Or(begins, ends)), hn::And(crosses, hn::Ge(top.c, arc.half.c)));
-  const Turn from = chosen(hn::AndNot(gap, begins), begin, risen), to = chosen(ends, end, set);
-  cut.first = {from, chosen(hn::AndNot(gap, both), arc.half, half_between(from, to)), hn::Or(middle, hn::Or(begins, ends))};
-  cut.other = {begin, half_between(begin, set), gap};
-  const Lit also = hn::Or(middle, gap);
-  cut.sets = hn::Or(also, hn::AndNot(ends, begins)), cut.rises = hn::Or(also, hn::AndNot(begins, ends));
+  cut.sets = sum_of(top, reached), cut.rises = sum_of(top, back(reached));
+  const Turn middle = sum_of(part.from, part.half);
+  const Lanes to_top = hn::MulAdd(top.c, middle.c, hn::Mul(top.s, middle.s));
+  const Lit begins = hn::And(part.seen, hn::Ge(at_from, zero)), ends = hn::And(part.seen, hn::Ge(at_to, zero));
+  const Lit both = hn::And(begins, ends), crosses = hn::And(part.seen, hn::Lt(hn::Mul(height.centre, height.centre), level2));
+  const Lit gap = hn::And(both, hn::And(crosses, hn::Ge(hn::Neg(to_top), part.half.c)));
+  const Lit inside = hn::And(hn::Not(hn::Or(begins, ends)), hn::And(crosses, hn::Ge(to_top, part.half.c)));
+  const Turn from = chosen(hn::AndNot(gap, begins), part.from, cut.rises), to = chosen(ends, part.to, cut.sets);
+  const Lit whole = hn::AndNot(gap, both), never = hn::FirstN(Floats(), 0);
+  cut.first = {from, to, chosen(whole, part.half, half_between(from, to, never)), hn::Or(inside, hn::Or(begins, ends))};
+  cut.other = {part.from, cut.sets, half_between(part.from, cut.sets, never), gap};
+  const Lit also = hn::Or(inside, gap);
+  cut.does_set = hn::Or(also, hn::AndNot(ends, begins)), cut.does_rise = hn::Or(also, hn::AndNot(begins, ends));
   return cut;
 }
+
+// A part of a great circle between unit vectors.
+struct Side {
+  Vector3 from, to;
+  Lit seen;
+};
+// Where a closed convex chain of arcs and sides goes below the plane z = 0 and comes up again.
+class Closing {
+ public:
+  explicit Closing(const Vector3& anywhere) : setting_(anywhere), rising_(anywhere) { sets_ = rises_ = hn::FirstN(Floats(), 0); }
+  HWY_INLINE void pass(Lit sets, const Vector3& setting, Lit rises, const Vector3& rising) {
+    setting_ = chosen(sets, setting, setting_), rising_ = chosen(rises, rising, rising_);
+    sets_ = hn::Or(sets_, sets), rises_ = hn::Or(rises_, rises);
+  }
+  // What of it is above.
+  HWY_INLINE Side cut(const Side& side) {
+    const Lanes zero = number(0);
+    const Vector3 &from = side.from, &to = side.to;
+    const Lit begins = hn::And(side.seen, hn::Ge(from.z, zero)), ends = hn::And(side.seen, hn::Ge(to.z, zero));
+    const Lit goes = hn::AndNot(ends, begins), comes = hn::AndNot(begins, ends);
+    // from (-to.z) + to from.z, or the other way round.
+    const Lanes x = hn::MulSub(to.x, from.z, hn::Mul(from.x, to.z)), y = hn::MulSub(to.y, from.z, hn::Mul(from.y, to.z));
+    const Lanes length = inverse_sqrt(Floats(), hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), number(1e-30f)));
+    const Lanes over = hn::IfThenElse(comes, hn::Neg(length), length);
+    const Vector3 place{hn::Mul(x, over), hn::Mul(y, over), zero};
+    pass(goes, place, comes, place);
+    return {chosen(comes, place, from), chosen(goes, place, to), hn::Or(begins, ends)};
+  }
+  // Along the plane.
+  Side side() const { return {setting_, rising_, hn::And(sets_, rises_)}; }
+  const Vector3& rising() const { return rising_; }
+
+ private:
+  Lit sets_, rises_;
+  Vector3 setting_, rising_;
+};
 
 // With e across from the point to the axis, D far, w = axis x e and x along the axis, the planes that touch the tube lengthwise have the
 // normals -(R / D) e +- (H / D) w, H^2 = D^2 - R^2. A cap's circle of tangency is seen about c = x axis + D e at the sine R / |c|; with u
@@ -130,6 +173,29 @@ HWY_INLINE TubeOutline tube_outline(const PlacedTubeAxis& light, const Vector3& 
   t.doubtful = hn::Or(t.doubtful, hn::Gt(hn::Mul(near2, number(least_angle * least_angle)), hn::Mul(size, size)));
   return t;
 }
+
+// What of the outline is above the surface's horizon.
+struct CutCap {
+  Vector3 begin, end, setting, rising;  // of the whole arc, and of the parts that are left of it
+  CutArc cut;
+  HWY_INLINE explicit CutCap(const CapArc& arc) : begin(arc.at(back(arc.half))), end(arc.at(arc.half)) {
+    const ArcPart whole{back(arc.half), arc.half, arc.half, hn::FirstN(Floats(), hn::Lanes(Floats()))};
+    cut = cut_arc({arc.centre.z, arc.u.z, arc.v.z}, whole, begin.z, end.z);
+    setting = arc.at(cut.sets), rising = arc.at(cut.rises);
+  }
+};
+struct AboveHorizon {
+  CutCap a, b;
+  std::array<Side, 3> sides;  // the last one along the horizon
+  Vector3 somewhere;          // a direction of it
+  HWY_INLINE explicit AboveHorizon(const TubeOutline& tube) : a(tube.a), b(tube.b) {
+    Closing closing(a.begin);
+    closing.pass(a.cut.does_set, a.setting, a.cut.does_rise, a.rising);
+    closing.pass(b.cut.does_set, b.setting, b.cut.does_rise, b.rising);
+    sides[0] = closing.cut({a.end, b.begin, tube.sides}), sides[1] = closing.cut({b.end, a.begin, tube.sides});
+    sides[2] = closing.side(), somewhere = closing.rising();
+  }
+};
 
 }  // namespace etendue::eval::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
