@@ -161,10 +161,13 @@ class Evaluator {
   // In floats, where a sum may leave out lights that are below the tolerance.
   bool in_floats() const { return fast_ && lambert_; }
   Answer operator()(const Emitter& emitter, const PointRow& point) const;
-  // Many points of one light; `fast` alone knows a shorter way, which it prepares once a light.
-  std::optional<eval::LightBatch> batch_of(const Emitter& emitter) const;
-  std::vector<Answer> operator()(const Emitter& emitter, const std::optional<eval::LightBatch>& batch,
-                                 std::span<const PointRow> points) const;
+  // Many points of one light: `fast` and whatever keeps a tolerance know shorter ways, which are prepared once a light.
+  struct Prepared {
+    std::optional<eval::LightBatch> batch;
+    std::optional<eval::LightPlan> plan;
+  };
+  Prepared prepared(const Emitter& emitter) const;
+  std::vector<Answer> operator()(const Emitter& emitter, const Prepared& prepared, std::span<const PointRow> points) const;
   // Whether the method takes this light.
   Status accepts(const Emitter& emitter, const std::string& name) const;
   // Of patches: a light's card comes before it is asked for; the emitter stays where it is.
@@ -358,10 +361,6 @@ Answer Evaluator::operator()(const Emitter& emitter, const PointRow& p) const {
   if (sampling_) return by_samples(emitter, p);
   if (patches_) return by_card(emitter, p).value_or(Answer{{}, 0, "patches"});
   if (adaptive_) return adaptively(emitter, p).value_or(Answer{{}, 0, "adaptive"});
-  if (planned_) {
-    const eval::LightWithin found = eval::light_within(emitter, shading_point(p), tolerance_);
-    return {found.light.value, largest(found.light.error), found.way};
-  }
   if (published_ != nullptr) {
     // What a published approximation is off by is measured here, against the closed form.
     const std::optional<double> sr = published_->illuminance(emitter, p.position, p.normal);
@@ -404,17 +403,26 @@ double facing(const Emitter& emitter, const Rgb& scale, const Vec3d& position) {
   return largest(scale) / std::max(dot(to, to), 1e-280);
 }
 
-std::optional<eval::LightBatch> Evaluator::batch_of(const Emitter& emitter) const {
-  if (!in_floats()) return {};
+Evaluator::Prepared Evaluator::prepared(const Emitter& emitter) const {
+  Prepared made;
+  if (planned_) made.plan.emplace(emitter, eval::Tolerance{tolerance_, 0});
+  if (!in_floats()) return made;
   Result<eval::LightBatch> batch = eval::LightBatch::of(emitter);
-  if (!batch) return {};
-  return *std::move(batch);
+  if (batch) made.batch = *std::move(batch);
+  return made;
 }
 
-std::vector<Answer> Evaluator::operator()(const Emitter& emitter, const std::optional<eval::LightBatch>& batch,
-                                          std::span<const PointRow> points) const {
+std::vector<Answer> Evaluator::operator()(const Emitter& emitter, const Prepared& prepared, std::span<const PointRow> points) const {
   std::vector<Answer> answers;
   answers.reserve(points.size());
+  if (prepared.plan) {
+    std::vector<eval::ShadingPoint> places;
+    for (const PointRow& p : points) places.push_back(shading_point(p));
+    for (const eval::LightWithin& found : (*prepared.plan)(places))
+      answers.push_back({found.light.value, largest(found.light.error), found.way});
+    return answers;
+  }
+  const std::optional<eval::LightBatch>& batch = prepared.batch;
   if (!batch) {
     for (const PointRow& p : points) answers.push_back((*this)(emitter, p));
     return answers;
@@ -510,11 +518,11 @@ int run_eval(const Common& common, const Options& options) {
     if (const Status ok = evaluator->accepts((*emitters)[i], name(i)); !ok) return session.fail(ok.error());
 
   std::optional<Sum> sum;
-  std::vector<std::optional<eval::LightBatch>> batches;
+  std::vector<Evaluator::Prepared> prepared;
   if (options.sum && evaluator->in_floats()) {
     sum.emplace(*emitters, *evaluator, options.tolerance);
   } else {
-    for (const Emitter& emitter : *emitters) batches.push_back(evaluator->batch_of(emitter));
+    for (const Emitter& emitter : *emitters) prepared.push_back(evaluator->prepared(emitter));
   }
   session.result = Json::array();
   std::uint64_t points = 0;
@@ -548,7 +556,7 @@ int run_eval(const Common& common, const Options& options) {
     } else {
       std::vector<std::vector<Answer>> by_light;
       by_light.reserve(emitters->size());
-      for (std::size_t i = 0; i < emitters->size(); ++i) by_light.push_back((*evaluator)((*emitters)[i], batches[i], block));
+      for (std::size_t i = 0; i < emitters->size(); ++i) by_light.push_back((*evaluator)((*emitters)[i], prepared[i], block));
       for (std::size_t p = 0; p < block.size(); ++p) {
         Answer all{{}, 0, "sum"};
         for (std::size_t i = 0; i < by_light.size(); ++i) {

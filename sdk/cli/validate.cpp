@@ -26,7 +26,7 @@ struct Options {
   unsigned samples = 1024, seeds = 16, threads = 0;
   ImportOptions import;
   ShadowOptions shadows;
-  double seconds = 0;
+  double seconds = 0, tolerance = 0;
   bool no_cache = false, plugins = false;
 };
 
@@ -181,6 +181,7 @@ Result<Validation> validate_scene(Session& session, const Options& options, Scen
   render_options.mitsuba_model = true;
   render_options.mitsuba_parts = parts;
   render_options.expected_noise = expected_noise(request.split.per_light());
+  render_options.shading_tolerance = options.tolerance;
   render_options.threads = options.threads;
   options.shadows.apply(render_options);
   Stage our_picture("our picture", bar);
@@ -305,6 +306,10 @@ void add_validate(CLI::App& app, const Common& common, Run& run) {
   verb->add_option("--seeds", options->seeds, "Independent runs, 5 or more")->capture_default_str()->check(CLI::Range(5, 1024));
   verb->add_option("--time", options->seconds, "Choose --spp so that Mitsuba takes about this many seconds")->check(CLI::Range(1.0, 1e6));
   verb->add_option("--max-diff", options->max_difference, "The difference asked about, as 1% or 0.01")->capture_default_str();
+  verb->add_option("--tolerance", options->tolerance,
+                   "Of our shading: error of each light at most this part of its value, diffuse and specular together (default: a fiftieth "
+                   "of Mitsuba's noise in a pixel)")
+      ->check(CLI::Range(1e-9, 0.1));
   verb->add_option("--camera", options->camera, "A camera of the file, or auto");
   verb->add_option("--lights", options->lights, "Only these lights, by name: a,b; the others stay as black shapes");
   verb->add_option("--mute", options->mute, "All but these lights");
@@ -319,6 +324,7 @@ void add_validate(CLI::App& app, const Common& common, Run& run) {
   verb->footer(
       "\nExit status: 0 same, 1 differs, 4 undecided.\n\nExamples:\n  etendue validate kitchen.rig.json --out report\n"
       "  etendue validate room.glb --max-diff 0.2% --spp 4096 --lights key,fill\n"
+      "  etendue validate room.glb --tolerance 1e-3\n"
       "  etendue validate lamps.rig.json --plugins");
   verb->callback([&common, &run, options] { run = [&common, options] { return run_validate(common, *options); }; });
 }

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "eval_protocol.h"
 
@@ -57,6 +60,8 @@ TEST(LightWithin, TakesTheCheapestWay) {
   Emitter point = sphere();
   point.shape = PunctualEmitter{{0, 0, 2}, {}, {10, 10, 10}, PointShape{}};
   EXPECT_EQ(light_within(point, surface(GgxLobe{0.1}), 1e-3).way, "exact");
+  EXPECT_EQ(light_within(white(SphereEmitter{{-0.5, 0.3, 10}, 0.4}), surface(Conductor{{0.2, 0.9, 1.1}, {3.9, 2.4, 2.1}, 0.3}), 1e-3).way,
+            "far");
   EXPECT_EQ(light_within(white(LineEmitter{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}}), surface(GgxLobe{0.1}), 1e-3).way, "reference");
 }
 
@@ -67,6 +72,51 @@ TEST(LightWithin, OneLobeMayBeBlack) {
   const Estimate diffuse = reference(sphere(), surface(FrostbiteDiffuse{matte.base_colour, matte.roughness}), {1e-8, 0});
   EXPECT_EQ(found.way, "two lobes");
   EXPECT_NEAR(found.light.value.x, diffuse.value.x, found.light.error.x + diffuse.error.x);
+}
+
+// A plan over many points says what one point after the other says, to the same tolerance, by whatever way.
+TEST(LightPlan, KeepsTheToleranceOverManyPoints) {
+  Random random(17);
+  for (const bool half_lit : {false, true}) {
+    const Emitter light = white(rectangle({0, 0, 1.5}, {1, 0, 0}, {0, -1, 0}, 1.4, 0.8), 30);
+    std::vector<ShadingPoint> points;
+    for (int i = 0; i < 300; ++i) {
+      const Vec3d position{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-0.5, 0.5)};
+      Vec3d normal = half_lit ? random.direction() : Vec3d{0, 0, 1};
+      Vec3d view = random.direction();
+      view = view - normal * std::min(0.0, 2 * dot(view, normal));
+      const double roughness = random.uniform(0.03, 1);
+      const std::array<Brdf, 6> brdfs{
+          Standard{{0.8, 0.3, 0.05}, random.uniform(0, 1), roughness, 0.6}, GgxLobe{roughness * roughness},
+          MetalRough{{0.9, 0.2, 0.1}, random.uniform(0, 1), roughness},     TwoColour{{0.5, 0.2, 0.1}, {0.1, 0.3, 0.05}, roughness},
+          Principled{{0.6, 0.5, 0.1}, i % 12 == 4 ? 1.0 : 0.5, roughness},  Lambert{{0.5, 0.5, 0.5}}};
+      points.push_back({position, normal, normal, view, brdfs[static_cast<std::size_t>(i % 6)]});
+    }
+    for (const double relative : {1e-2, 1e-3}) {
+      for (const double absolute : {0.0, 1e-3}) {
+        const std::vector<LightWithin> found = LightPlan(light, {relative, absolute})(points);
+        ASSERT_EQ(found.size(), points.size());
+        std::size_t in_cells = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          const double floor = 1e-3 * illuminance(light, points[i].position, points[i].normal).x;
+          const Estimate truth = reference(light, points[i], {relative / 100, relative / 100 * floor});
+          in_cells += found[i].way == "cells" ? 1 : 0;
+          for (int c = 0; c < 3; ++c) {
+            EXPECT_LE(std::abs(found[i].light.value[c] - truth.value[c]),
+                      std::max(relative * std::max(truth.value[c], floor), absolute) + truth.error[c])
+                << i << found[i].way;
+          }
+        }
+        EXPECT_GT(in_cells, 20u);
+      }
+    }
+  }
+}
+
+TEST(LightPlan, OnePointIsABlockToo) {
+  const LightPlan plan(sphere(), {1e-3, 0});
+  EXPECT_EQ(plan(surface(Standard{})).way, "two lobes");
+  EXPECT_EQ(plan(std::span<const ShadingPoint>{}).size(), 0u);
 }
 
 }  // namespace

@@ -1,10 +1,15 @@
 // The light of one emitter at a point within an asked tolerance, by the cheapest way that keeps it.
 //   const LightWithin light = light_within(emitter, {position, normal, normal, view, Standard{}}, 1e-3);   // cd/m2
+//   const LightPlan plan(emitter, {1e-3, 0});   // for many points of any surfaces
+//   const std::vector<LightWithin> lights = plan(points);
 #pragma once
 
 #include "etendue/eval.h"
 
+#include <memory>
+#include <span>
 #include <string_view>
+#include <vector>
 
 namespace etendue::eval {
 
@@ -17,12 +22,31 @@ struct LightWithin {
 // tolerance from 1e-9 on.
 //   unseen     below the horizon, or from behind: exactly 0, after one closed form
 //   exact      Lambert, and whatever has no extent: a closed form
+//   far        a light that is small where it stands: a few places of it, both lobes at once (far_luminance.h)
 //   adaptive   GGX under area lights: specular_luminance
-//   two lobes  Standard under area lights: half the tolerance for each, specular_luminance and `reference` of the diffuse lobe alone, which
-//              has no peak
+//   two lobes  Standard, MetalRough and TwoColour under area lights: half the tolerance for each lobe, GGX as above and `reference` of the
+//              diffuse one alone, which has no peak
+//   cells      either, with GGX in vectors (specular_within_batch.h): rectangles, many points, from 1e-4 (two lobes: 2e-4) on
 //   reference  all else
 // No approximation with a fixed error is among them: `moments` is further off than .1 in a sixth of the configurations of
 // tests/acceptance/specular --only adaptive, the transformed cosines in a quarter.
 LightWithin light_within(const Emitter& emitter, const ShadingPoint& point, double tolerance);
+
+// The same for many points under one light, which has to outlive it. |error| <= max(relative max(value, 1e-3 E L), absolute); `absolute` in
+// cd/m2. What does not hang on the point is made once. May be used from several threads.
+class LightPlan {
+ public:
+  LightPlan(const Emitter& emitter, const Tolerance& tolerance);
+
+  LightWithin operator()(const ShadingPoint& point) const;
+  // As many answers as points.
+  std::vector<LightWithin> operator()(std::span<const ShadingPoint> points) const;
+
+ private:
+  struct Batches;
+  const Emitter& emitter_;
+  Tolerance tolerance_;
+  std::shared_ptr<const Batches> batches_;
+};
 
 }  // namespace etendue::eval

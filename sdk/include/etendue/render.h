@@ -33,6 +33,9 @@ struct RenderOptions {
   // What need not be resolved: the relative noise (standard deviation over value) per pixel of the picture that ours is compared
   // with, for one light. Shading is computed to a fiftieth of it, shadows to a fifth. 0.01 suits a picture to look at.
   double expected_noise = 0.01;
+  // Of shading: |error| <= shading_tolerance max(value, 1e-3 E L) of each light at each place, diffuse and specular together, by the
+  // cheapest way that keeps it (light_within.h). 0: a fiftieth of the noise, and less closely where the picture is dark.
+  double shading_tolerance = 0;
   Shadows shadows = Shadows::unbiased;
   std::uint32_t shadow_samples = 0;  // of a pixel in a penumbra, 2 to 4096, a few less to be even; 0: as many as expected_noise asks for
   unsigned threads = 0;              // 0: all cores

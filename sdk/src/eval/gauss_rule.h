@@ -3,6 +3,7 @@
 
 #include "etendue/units.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -23,7 +24,8 @@ inline Legendre legendre(std::size_t n, double x) {
 }
 
 // The rule on [0, 1]. high[i][k] is 2 d + 1 times P_d there, d = N - 1 - k: sums of weighted values with them are the
-// coefficients of the highest degrees that the rule can tell, in the same unit as the sum of the weighted values itself.
+// coefficients of the highest degrees that the rule can tell (0 where it has fewer), in the same unit as the sum of the weighted values
+// itself.
 inline constexpr std::size_t told = 4;
 template <std::size_t N>
 struct Gauss {
@@ -41,7 +43,8 @@ struct Gauss {
       }
       x[i] = 0.5 * (1 + at);
       weight[i] = 1 / ((1 - at * at) * slope * slope);
-      for (std::size_t k = 0; k < told; ++k) high[i][k] = (2 * static_cast<double>(N - 1 - k) + 1) * legendre(N - 1 - k, at).last;
+      for (std::size_t k = 0; k < std::min(told, N); ++k)
+        high[i][k] = (2 * static_cast<double>(N - 1 - k) + 1) * legendre(N - 1 - k, at).last;
     }
   }
 };

@@ -14,16 +14,24 @@ struct RectWithin {
   std::array<Vec3d, 4> corners;  // counter-clockwise about the directions between them, as seen from the front
   Vec3d normal;
   bool two_sided;
+  bool separable = false;  // masking; else height-correlated
+  double least = 0;        // of the floor below which errors are not relative to the value
 };
 
 inline constexpr std::size_t points_at_once = 64, most_sides = 5;
+
+// Points of a block: position, normal and view, three numbers each, and alpha.
+struct PlaceBlock {
+  alignas(64) std::array<std::array<double, points_at_once>, 10> numbers;
+};
 
 // Sides of the lights of a block as arcs about the place tau = 0 where they are nearest to the middle of the lobe (lobe_cells.h). With
 // q = (x, y) / z, x = x0 + x1 tau + x2 tau^2 and so on, and q x dq/dtau = (turn0 + turn1 tau + turn2 tau^2) / z^2. A side that is not seen
 // has begin = end. `lowest`: n.l of its lower end; `rim`: 1 - p of the end that is farther out.
 struct SideBlock {
   enum OfSide { x0, x1, x2, y0, y1, y2, z0, z1, z2, turn0, turn1, turn2, kappa, begin, end, lowest, rim, side_numbers };
-  enum OfPoint { alpha, view_x, view_z, view_root, base, rest, level, level_risen, floor, doubt, point_numbers };
+  // G / (4 n.v n.l) = 1 / (2 (of_height n.l + of_root S(n.l))).
+  enum OfPoint { alpha, view_x, view_z, of_height, of_root, base, rest, level, level_risen, floor, doubt, point_numbers };
   std::array<std::array<float, most_sides * points_at_once>, side_numbers> side;
   std::array<std::array<float, points_at_once>, point_numbers> point;
 };
@@ -53,8 +61,8 @@ struct CellList {
   }
 };
 
-// The sides of `count` points from `first` on.
-void lay_sides(const RectWithin& light, const SpecularPoints& points, std::size_t first, std::size_t count, SideBlock& block);
+// The sides of the first `count` points. What stands beyond them is laid out too.
+void lay_sides(const RectWithin& light, const PlaceBlock& places, std::size_t count, SideBlock& block);
 // What a rule for the tolerance says of every cell.
 void measure(const SideBlock& block, double tolerance, CellList& cells);
 

@@ -219,19 +219,12 @@ HWY_INLINE void lay_side(const WideSide& side, const Wide3& view, Wide over_alph
   all.inside = hn::And(all.inside, hn::Or(hn::Not(seen), hn::Gt(towards_mirror, zero)));
 }
 
-void LaySides(const RectWithin& light, const SpecularPoints& points, std::size_t first, std::size_t count, SideBlock& block) {
+void LaySides(const RectWithin& light, const PlaceBlock& places, std::size_t count, SideBlock& block) {
   const Doubles d;
-  const hn::Rebind<float, Doubles> floats;
   const std::size_t lanes = hn::Lanes(d);
   const Wide zero = wide(0), one = wide(1);
-  const PointBatch& s = points.surface;
-  const std::array<const float*, 10> in{s.px.data(), s.py.data(),      s.pz.data(),      s.nx.data(),      s.ny.data(),
-                                        s.nz.data(), points.vx.data(), points.vy.data(), points.vz.data(), points.alpha.data()};
-  // The last vector may be a part of one.
-  HWY_ALIGN std::array<std::array<float, points_at_once>, 10> at;
-  for (std::size_t k = 0; k < 10; ++k) std::fill(std::copy_n(in[k] + first, count, at[k].begin()), at[k].end(), 1.0f);
   for (std::size_t i = 0; i < count; i += lanes) {
-    const auto load = [&](std::size_t k) ETENDUE_INLINE_LAMBDA { return hn::PromoteTo(d, hn::LoadU(floats, at[k].data() + i)); };
+    const auto load = [&](std::size_t k) ETENDUE_INLINE_LAMBDA { return hn::LoadU(d, places.numbers[k].data() + i); };
     const Wide3 position{load(0), load(1), load(2)}, normal{load(3), load(4), load(5)}, towards{load(6), load(7), load(8)};
     const Wide3 z = wide_unit(normal), v = wide_unit(towards);
     const Wide rough = load(9), alpha = hn::Min(hn::Max(rough, wide(1e-4)), one), over_alpha = hn::Div(one, alpha);
@@ -271,15 +264,19 @@ void LaySides(const RectWithin& light, const SpecularPoints& points, std::size_t
     const Wide alpha2 = hn::Mul(alpha, alpha);
     const auto masked_root = [&](Wide c)
                                  ETENDUE_INLINE_LAMBDA { return hn::Sqrt(hn::MulAdd(hn::Mul(c, c), hn::Sub(one, alpha2), alpha2)); };
-    const Wide view_root = masked_root(cosine), c = hn::Max(hn::Add(vm, cosine), zero);
-    const Wide shape =
-        hn::Div(hn::Mul(hn::Mul(wide(2), nl), c), hn::MulAdd(nl, view_root, hn::Mul(hn::Max(cosine, wide(1e-9)), masked_root(nl))));
+    // Correlated: n.l S(n.v) + n.v S(n.l); separable: half of (n.v + S(n.v)) (n.l + S(n.l)).
+    const Wide view_root = masked_root(cosine), c = hn::Max(hn::Add(vm, cosine), zero), seen = hn::Max(cosine, wide(1e-9));
+    const Wide both = hn::Mul(wide(0.5), hn::Add(seen, view_root));
+    const Wide of_height = light.separable ? both : view_root, of_root = light.separable ? both : seen;
+    const Wide shape = hn::Div(hn::Mul(hn::Mul(wide(2), nl), c), hn::MulAdd(nl, of_height, hn::Mul(of_root, masked_root(nl))));
     const Wide away = hn::Max(hn::NegMulAdd(c, hn::Sqrt(per_m), one), zero), away2 = hn::Mul(away, away);
     const auto keep = [&](SideBlock::OfPoint what, Wide value) ETENDUE_INLINE_LAMBDA { store(value, block.point[what].data() + i); };
-    keep(SideBlock::alpha, alpha), keep(SideBlock::view_x, view.x), keep(SideBlock::view_z, cosine), keep(SideBlock::view_root, view_root);
+    keep(SideBlock::alpha, alpha), keep(SideBlock::view_x, view.x), keep(SideBlock::view_z, cosine), keep(SideBlock::of_height, of_height),
+        keep(SideBlock::of_root, of_root);
     keep(SideBlock::base, hn::IfThenElseZero(apart, least)), keep(SideBlock::rest, hn::IfThenElse(apart, rest, one));
     keep(SideBlock::level, shape), keep(SideBlock::level_risen, hn::Mul(shape, hn::Mul(hn::Mul(away2, away2), away)));
-    keep(SideBlock::floor, hn::IfThenElseZero(lit, hn::Mul(wide(1e-3), all.illuminance)));
+    const WideMask any = hn::And(lit, hn::Gt(all.illuminance, zero));
+    keep(SideBlock::floor, hn::IfThenElseZero(any, hn::Max(hn::Mul(wide(1e-3), all.illuminance), wide(light.least))));
     const Wide nothing = hn::Add(hn::Add(less_itself(position, normal), less_itself(towards, towards)), hn::Sub(rough, rough));
     keep(SideBlock::doubt, hn::IfThenElseZero(hn::Or(all.doubtful, hn::Not(hn::Eq(nothing, zero))), one));
   }
@@ -318,7 +315,8 @@ HWY_NOINLINE void measure(const SideBlock& block, CellList& cells, std::size_t f
   const Cell turn0 = of_side(SideBlock::turn0), turn1 = of_side(SideBlock::turn1), turn2 = of_side(SideBlock::turn2);
   const Cell kappa = of_side(SideBlock::kappa);
   const Cell alpha = of_point(SideBlock::alpha), vx = of_point(SideBlock::view_x), vz = of_point(SideBlock::view_z);
-  const Cell view_root = of_point(SideBlock::view_root), base = of_point(SideBlock::base), rest = of_point(SideBlock::rest);
+  const Cell of_height = of_point(SideBlock::of_height), of_root = of_point(SideBlock::of_root), base = of_point(SideBlock::base),
+             rest = of_point(SideBlock::rest);
   const Cell level = of_point(SideBlock::level), level_risen = of_point(SideBlock::level_risen);
   const Cell x0 = hn::LoadU(d, cells.x0.data() + first), x1 = hn::LoadU(d, cells.x1.data() + first);
   const Cell t0 = hn::LoadU(d, cells.t0.data() + first), t1 = hn::LoadU(d, cells.t1.data() + first);
@@ -380,7 +378,7 @@ HWY_NOINLINE void measure(const SideBlock& block, CellList& cells, std::size_t f
       const Cell up = hn::MulAdd(hn::Add(sv, sv), less, hn::Mul(vz, hn::Sub(less2, m2)));
       const Cell nl = hn::Max(hn::Mul(up, hn::Mul(over, over)), zero);
       const Cell root = hn::Sqrt(hn::MulAdd(hn::Mul(nl, nl), less_alpha2, alpha2));
-      const Cell seen = hn::MulAdd(nl, view_root, hn::Mul(vz, root));
+      const Cell seen = hn::MulAdd(nl, of_height, hn::Mul(of_root, root));
       const Cell per = inverse(d, hn::Mul(hn::Mul(more, more), hn::Mul(more, seen)));
       const Cell shape = hn::Mul(hn::Mul(hn::Add(nl, nl), c), per), taken = hn::Mul(hn::Mul(seen, per), less);
       const Cell away = hn::Min(hn::Max(hn::NegMulAdd(c, over, one), zero), one), away2 = hn::Mul(away, away);
@@ -491,8 +489,8 @@ namespace etendue::eval {
 HWY_EXPORT(Measure);
 HWY_EXPORT(LaySides);
 
-void lay_sides(const RectWithin& light, const SpecularPoints& points, std::size_t first, std::size_t count, SideBlock& block) {
-  HWY_DYNAMIC_DISPATCH(LaySides)(light, points, first, count, block);
+void lay_sides(const RectWithin& light, const PlaceBlock& places, std::size_t count, SideBlock& block) {
+  HWY_DYNAMIC_DISPATCH(LaySides)(light, places, count, block);
 }
 void measure(const SideBlock& block, double tolerance, CellList& cells) { HWY_DYNAMIC_DISPATCH(Measure)(block, tolerance, cells); }
 

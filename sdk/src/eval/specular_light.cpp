@@ -78,13 +78,13 @@ class Adaptive {
     outlines_.push_back(outline);
   }
 
-  // Of a light of the luminance 1. floor(): what the tolerance is a part of where the value is less, asked for if it may be.
+  // Of a light of the luminance 1. floor(): what the tolerance is a part of where the value is less, asked for if it may be or `always`.
   // Nothing where too much cancels: a thin light at the horizon, seen along it.
   template <class Floor>
-  std::optional<Estimate> integrate(const Floor& floor_of) {
+  std::optional<Estimate> integrate(const Floor& floor_of, bool always) {
     begin_all();
     add_up();
-    floor_ = largest_value() < 1e-3 * pi ? floor_of() : 0;
+    floor_ = always || largest_value() < 1e-3 * pi ? floor_of() : 0;
     // What is negligible is so beside the light, not beside what cancels.
     double size = 0, light = 0;
     for (int c = 0; c < 3; ++c) {
@@ -330,7 +330,7 @@ double brightest(const Rgb& c) { return std::max({c.x, c.y, c.z}); }
 
 }  // namespace
 
-std::optional<Estimate> specular_luminance(const Emitter& emitter, const ShadingPoint& point, double tolerance) {
+std::optional<Estimate> specular_luminance(const Emitter& emitter, const ShadingPoint& point, double tolerance, double least) {
   const std::optional<GgxLobe> lobe = round_ggx(point.brdf);
   if (!lobe || !is_uniform_area_light(emitter)) return std::nullopt;
   const LocalFrame frame(point.position, point.normal);
@@ -343,8 +343,10 @@ std::optional<Estimate> specular_luminance(const Emitter& emitter, const Shading
   each_outline(emitter, frame, [&](const Contour& outline, std::size_t) {
     if (const Contour lit = clipped(outline, horizons); !lit.empty()) adaptive.add(lit);
   });
-  const auto floor = [&] { return 1e-3 * brightest(illuminance(emitter, point.position, point.normal)) / brightest(luminance); };
-  const std::optional<Estimate> found = adaptive.integrate(floor);
+  const auto floor = [&] {
+    return std::max(1e-3 * brightest(illuminance(emitter, point.position, point.normal)), least) / brightest(luminance);
+  };
+  const std::optional<Estimate> found = adaptive.integrate(floor, least > 0);
   // The reference's fans stand in the light. At grazing views its own errors are only to be believed where it is asked for little.
   const double closely = std::min(tolerance, 1e-4);
   if (!found) return reference(emitter, point, {closely, closely * floor() * brightest(luminance)});

@@ -21,10 +21,13 @@ namespace etendue::eval {
 
 class SpecularWithinBatch::Light {
  public:
-  Light(const Emitter& emitter, const RectView& seen) : white(emitter), view(seen) {}
+  Light(const Emitter& emitter, const RectView& seen, bool separable_masking, double least_floor)
+      : white(emitter), view(seen), separable(separable_masking), least(least_floor) {}
 
   Emitter white;  // of 1 cd/m2
   RectView view;
+  bool separable;
+  double least;  // RectWithin
 };
 
 namespace {
@@ -182,9 +185,11 @@ class BlockWithin {
   std::array<Sums, points_at_once> sums;
   std::array<bool, points_at_once> kept;  // to the tolerance
 
-  void run(const SpecularPoints& points, std::size_t first, std::size_t count) {
+  // Of as many of the places.
+  PlaceBlock places;
+  void run(std::size_t count) {
     constexpr int most_rounds = 8;
-    lay_sides(rect_, points, first, count, block_);
+    lay_sides(rect_, places, count, block_);
     cells_->full = next_->full = false;
     cells_->clear();
     for (std::size_t i = 0; i < count; ++i) {
@@ -280,16 +285,15 @@ BoundedShare bounded(const Sums& s, double floor, double tolerance) {
 }
 
 // specular_luminance takes one f0 a channel: the whole lobe, and what f90 alone has of it.
-BoundedShare in_double(const Emitter& white, const SpecularPoints& points, std::size_t index, double tolerance) {
-  const PointBatch& s = points.surface;
-  const auto at = [&](std::span<const float> x, std::span<const float> y, std::span<const float> z) {
-    return Vec3d{x[index], y[index], z[index]};
-  };
-  const Vec3d normal = at(s.nx, s.ny, s.nz), view = at(points.vx, points.vy, points.vz);
+BoundedShare in_double(const Emitter& white, const RectWithin& rect, const Vec3d& origin, const PlaceBlock& places, std::size_t i,
+                       double tolerance) {
+  const auto at = [&](std::size_t k) { return Vec3d{places.numbers[k][i], places.numbers[k + 1][i], places.numbers[k + 2][i]}; };
+  const Vec3d normal = at(3), view = at(6);
   if (!(length(normal) > 0 && length(view) > 0)) return {};
-  ShadingPoint point{at(s.px, s.py, s.pz) + s.origin, normalised(normal), normalised(normal), normalised(view), Lambert{}};
-  point.brdf = GgxLobe{points.alpha[index], {1, SpecularWithinBatch::least_f0, 1}, 1};
-  const Estimate found = specular_luminance(white, point, tolerance).value_or(Estimate{});
+  ShadingPoint point{at(0) + origin, normalised(normal), normalised(normal), normalised(view), Lambert{}};
+  const Masking masking = rect.separable ? Masking::separable : Masking::correlated;
+  point.brdf = GgxLobe{places.numbers[9][i], {1, SpecularWithinBatch::least_f0, 1}, 1, masking};
+  const Estimate found = specular_luminance(white, point, tolerance, rect.least).value_or(Estimate{});
   const double whole = found.value.x, dark = found.value.y, least = SpecularWithinBatch::least_f0;
   const double risen = std::clamp((dark - least * whole) / (1 - least), 0.0, whole);
   return {whole - risen, risen, found.error.x, found.error.y};
@@ -302,33 +306,32 @@ CellPlan plan_for(double tolerance) {
 
 }  // namespace
 
-Result<SpecularWithinBatch> SpecularWithinBatch::of(const Emitter& emitter, double tolerance) {
+Result<SpecularWithinBatch> SpecularWithinBatch::of(const Emitter& emitter, double tolerance, Masking masking, double least) {
   if (!(tolerance >= least_tolerance && tolerance <= most_tolerance)) {
     const std::string expected = fmt::format("expected a tolerance from {} to {}, found {}", least_tolerance, most_tolerance, tolerance);
     return Error{"TOLERANCE_OUT_OF_RANGE", expected, {}, {}, {}};
   }
+  if (masking != Masking::correlated && masking != Masking::separable)
+    return Error{"METHOD_LOBE", "expected height-correlated or separable masking", {}, {}, {}};
   Emitter white = emitter;
   white.radiance = {1, 1, 1};
   const auto* polygon = std::get_if<PolygonEmitter>(&white.shape);
   const bool uniform = !white.pattern && !is_window(white.window);
   const std::optional<RectView> view = polygon != nullptr && uniform ? rect_view(*polygon, false, {}) : std::nullopt;
   if (!view) return Error{"METHOD_SHAPE", "expected a uniform rectangle without a window", {}, {}, {}};
-  return SpecularWithinBatch(tolerance, std::make_shared<const Light>(white, *view), emitter.radiance);
+  const double brightest = std::max({emitter.radiance.x, emitter.radiance.y, emitter.radiance.z});
+  const double floor = least > 0 && brightest > 0 ? least / brightest : 0;
+  return SpecularWithinBatch(tolerance, std::make_shared<const Light>(white, *view, masking == Masking::separable, floor),
+                             emitter.radiance);
 }
 
-BatchOutcome SpecularWithinBatch::shares(const SpecularPoints& points, const BoundedShares& to, float where_none) const {
-  const PointBatch& s = points.surface;
-  const std::size_t count = to.of_f0.size();
-  const std::array<std::span<const float>, 10> in{s.px, s.py, s.pz, s.nx, s.ny, s.nz, points.vx, points.vy, points.vz, points.alpha};
-  for (const std::span<const float>& numbers : in)
-    if (numbers.size() != count) return batch_sizes_differ(numbers.size(), count);
-  if (to.of_f90.size() != count) return batch_sizes_differ(count, to.of_f90.size());
-  for (const std::span<float>& bounds : {to.bound_f0, to.bound_f90})
-    if (!bounds.empty() && bounds.size() != count) return batch_sizes_differ(count, bounds.size());
-
+template <class Fill>
+std::size_t SpecularWithinBatch::over(std::size_t count, const Vec3d& origin, const Fill& fill, const BoundedShares& to,
+                                      float where_none) const {
   const RectView& view = light_->view;
-  const auto corner = [&](double x, double y) { return view.at(x * view.half_x, y * view.half_y) - s.origin; };
-  const RectWithin rect{{corner(-1, -1), corner(-1, 1), corner(1, 1), corner(1, -1)}, view.normal, light_->white.two_sided};
+  const auto corner = [&](double x, double y) { return view.at(x * view.half_x, y * view.half_y) - origin; };
+  const RectWithin rect{
+      {corner(-1, -1), corner(-1, 1), corner(1, 1), corner(1, -1)}, view.normal, light_->white.two_sided, light_->separable, light_->least};
   const CellPlan plan = plan_for(tolerance_);
   const auto block = std::make_unique<BlockWithin>(rect, plan);
   std::size_t without = 0;
@@ -339,13 +342,17 @@ BatchOutcome SpecularWithinBatch::shares(const SpecularPoints& points, const Bou
   };
   for (std::size_t first = 0; first < count; first += points_at_once) {
     const std::size_t number = std::min(points_at_once, count - first);
-    block->run(points, first, number);
+    PlaceBlock& places = block->places;
+    for (auto& numbers : places.numbers) std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(number), numbers.end(), 1.0);
+    fill(first, number, places);
+    block->run(number);
     for (std::size_t i = 0; i < number; ++i) {
       const std::size_t index = first + i;
       if (block->kept[i]) {
         write(index, bounded(block->sums[i], block->floor(i), tolerance_));
-      } else if (std::all_of(in.begin(), in.end(), [&](const auto& numbers) { return std::isfinite(numbers[index]); })) {
-        write(index, in_double(light_->white, points, index, tolerance_));
+      } else if (std::all_of(places.numbers.begin(), places.numbers.end(),
+                             [&](const auto& numbers) { return std::isfinite(numbers[i]); })) {
+        write(index, in_double(light_->white, rect, origin, places, i, tolerance_));
       } else {
         write(index, {where_none, where_none, 0, 0});
         ++without;
@@ -353,6 +360,46 @@ BatchOutcome SpecularWithinBatch::shares(const SpecularPoints& points, const Bou
     }
   }
   return without;
+}
+
+namespace {
+
+std::optional<std::size_t> other_size(const BoundedShares& to) {
+  const std::size_t count = to.of_f0.size();
+  if (to.of_f90.size() != count) return to.of_f90.size();
+  for (const std::span<float>& bounds : {to.bound_f0, to.bound_f90})
+    if (!bounds.empty() && bounds.size() != count) return bounds.size();
+  return std::nullopt;
+}
+
+}  // namespace
+
+BatchOutcome SpecularWithinBatch::shares(const SpecularPoints& points, const BoundedShares& to, float where_none) const {
+  const PointBatch& s = points.surface;
+  const std::size_t count = to.of_f0.size();
+  const std::array<std::span<const float>, 10> in{s.px, s.py, s.pz, s.nx, s.ny, s.nz, points.vx, points.vy, points.vz, points.alpha};
+  for (const std::span<const float>& numbers : in)
+    if (numbers.size() != count) return batch_sizes_differ(numbers.size(), count);
+  if (const auto other = other_size(to)) return batch_sizes_differ(count, *other);
+  const auto fill = [&](std::size_t first, std::size_t number, PlaceBlock& places) {
+    for (std::size_t k = 0; k < in.size(); ++k)
+      std::copy_n(in[k].begin() + static_cast<std::ptrdiff_t>(first), number, places.numbers[k].begin());
+  };
+  return over(count, s.origin, fill, to, where_none);
+}
+
+BatchOutcome SpecularWithinBatch::shares(std::span<const SpecularPlace> points, const BoundedShares& to, float where_none) const {
+  if (points.size() != to.of_f0.size()) return batch_sizes_differ(points.size(), to.of_f0.size());
+  if (const auto other = other_size(to)) return batch_sizes_differ(points.size(), *other);
+  const auto fill = [&](std::size_t first, std::size_t number, PlaceBlock& places) {
+    for (std::size_t i = 0; i < number; ++i) {
+      const SpecularPlace& p = points[first + i];
+      const std::array<double, 10> all{p.position.x, p.position.y, p.position.z, p.normal.x, p.normal.y,
+                                       p.normal.z,   p.view.x,     p.view.y,     p.view.z,   p.alpha};
+      for (std::size_t k = 0; k < all.size(); ++k) places.numbers[k][i] = all[k];
+    }
+  };
+  return over(points.size(), {}, fill, to, where_none);
 }
 
 }  // namespace etendue::eval

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace etendue::rendering {
 namespace {
@@ -42,7 +43,16 @@ bool LightPainter::centre_is_needed(std::uint32_t x, std::uint32_t y) const {
          (x + 1 < options_.width && surroundings(x + 1, y).beta > 0) || (y + 1 < options_.height && surroundings(x, y + 1).beta > 0);
 }
 
+// All of a row that are to be evaluated are evaluated together; none of a pass hangs on another of it.
 void LightPainter::centre_row(std::uint32_t row, int pass, RayCounts& counts) {
+  std::vector<SeenPoint> wanted;
+  std::vector<std::size_t> pixels;
+  const auto keep = [&](std::size_t pixel, const Response& response) {
+    black_[pixel] = response.black;
+    slope_[pixel] = response.slope;
+    centre_bound_[pixel] = static_cast<float>(response.bound);
+    known_[pixel] = 1;
+  };
   for (std::uint32_t x = 0; x < options_.width; ++x) {
     const std::size_t pixel = index(x, row);
     if (place_of(x, row).pass() != pass || survey_.regions(pixel) != nullptr || !centre_is_needed(x, row)) continue;
@@ -52,12 +62,14 @@ void LightPainter::centre_row(std::uint32_t row, int pass, RayCounts& counts) {
     // Lambert's closed forms cost no more than an interpolation.
     const Rgb colour = base_colour_at(*stage_.thing(point->thing).paint, point->uv);
     const std::optional<Response> between = is_matt(*point) ? std::nullopt : interpolated(x, row, colour);
-    const Response response = between ? *between : lighting_.response(light_, *point, -ray.direction, tolerance_, counts);
-    black_[pixel] = response.black;
-    slope_[pixel] = response.slope;
-    centre_bound_[pixel] = static_cast<float>(response.bound);
-    known_[pixel] = 1;
+    if (between) {
+      keep(pixel, *between);
+    } else {
+      wanted.push_back({*point, -ray.direction}), pixels.push_back(pixel);
+    }
   }
+  const std::vector<Response> found = lighting_.responses(light_, wanted, *plan_, counts);
+  for (std::size_t k = 0; k < found.size(); ++k) keep(pixels[k], found[k]);
 }
 
 // The cubic through four places at -3, -1, 1, 3 steps has (9 (f(-1) + f(1)) - f(-3) - f(3)) / 16 in the middle and errs by .375 h^4 f4, h

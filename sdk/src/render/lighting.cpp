@@ -121,35 +121,62 @@ Rgb Lighting::emitted(const StageLight& light, const std::optional<SurfacePoint>
   return met ? eval::light_along(light.as_seen, ray.origin, ray.direction).radiance : Rgb{};
 }
 
-Reflected Lighting::reflected(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
-                              RayCounts& counts, const std::optional<Rgb>& base_colour) const {
-  const auto shading = shading_point(stage_.thing(point.thing).paint, point, view, base_colour);
-  if (!shading) return {};
-  if (!light.delta) {
-    const eval::Estimate estimate = eval::reference(light.emitter, *shading, tolerance);
-    counts.evaluations += estimate.evaluations;
-    return {estimate.value, largest(estimate.error)};
-  }
-  const eval::LightSample sample = delta_light(light, point.position);
+Reflected Lighting::from_direction(const StageLight& light, const SeenPoint& seen, const eval::ShadingPoint& shading,
+                                   RayCounts& counts) const {
+  const eval::LightSample sample = delta_light(light, seen.point.position);
   if (sample.pdf <= 0) return {};
-  const Rgb value = Reflector(*shading).brdf_cos(sample.direction) * sample.radiance;
+  const Rgb value = Reflector(shading).brdf_cos(sample.direction) * sample.radiance;
   ++counts.evaluations;
   if (value == Rgb{}) return {};
   ++counts.shadow;
-  if (stage_.blocked(point, sample.direction, sample.distance, light.thing)) return {};
+  if (stage_.blocked(seen.point, sample.direction, sample.distance, light.thing)) return {};
   return {value, 0};
 }
 
-Response Lighting::response(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
-                            RayCounts& counts) const {
-  const Paint* const paint = stage_.thing(point.thing).paint;
-  if (paint == nullptr || !paint->coloured()) {
-    const Reflected all = reflected(light, point, view, tolerance, counts);
-    return {all.value, {}, all.bound};
+std::vector<Reflected> Lighting::reflected(const StageLight& light, std::span<const SeenPoint> points, const eval::LightPlan& plan,
+                                           RayCounts& counts) const {
+  std::vector<Reflected> out(points.size());
+  std::vector<eval::ShadingPoint> planned;
+  std::vector<std::size_t> index;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SeenPoint& seen = points[i];
+    const auto shading = shading_point(stage_.thing(seen.point.thing).paint, seen.point, seen.view, seen.base_colour);
+    if (!shading) continue;
+    if (light.delta) {
+      out[i] = from_direction(light, seen, *shading, counts);
+    } else {
+      planned.push_back(*shading), index.push_back(i);
+    }
   }
-  const Reflected black = reflected(light, point, view, tolerance, counts, Rgb{0, 0, 0});
-  const Reflected white = reflected(light, point, view, tolerance, counts, Rgb{1, 1, 1});
-  return {black.value, white.value - black.value, std::max(black.bound, white.bound)};
+  const std::vector<eval::LightWithin> lights = plan(planned);
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    counts.evaluations += lights[k].light.evaluations;
+    out[index[k]] = {lights[k].light.value, largest(lights[k].light.error)};
+  }
+  return out;
+}
+
+std::vector<Response> Lighting::responses(const StageLight& light, std::span<const SeenPoint> points, const eval::LightPlan& plan,
+                                          RayCounts& counts) const {
+  std::vector<SeenPoint> wanted;
+  std::vector<std::size_t> first;
+  for (const SeenPoint& seen : points) {
+    first.push_back(wanted.size());
+    const Paint* const paint = stage_.thing(seen.point.thing).paint;
+    if (paint == nullptr || !paint->coloured()) {
+      wanted.push_back(seen);
+    } else {
+      wanted.push_back({seen.point, seen.view, Rgb{0, 0, 0}}), wanted.push_back({seen.point, seen.view, Rgb{1, 1, 1}});
+    }
+  }
+  first.push_back(wanted.size());
+  const std::vector<Reflected> lit = reflected(light, wanted, plan, counts);
+  std::vector<Response> out;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Reflected &black = lit[first[i]], &white = lit[first[i + 1] - 1];
+    out.push_back({black.value, white.value - black.value, std::max(black.bound, white.bound)});
+  }
+  return out;
 }
 
 std::optional<SurfacePoint> Lighting::target_point(const PixelTarget& target, const Ray& ray, RayCounts& counts) const {

@@ -3,10 +3,11 @@
 
 #include "probe.h"
 
-#include "etendue/eval.h"
+#include "etendue/light_within.h"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace etendue::rendering {
@@ -38,7 +39,7 @@ struct Sampled {
   Deviating ratio(double otherwise) const;
 };
 
-// Reflected light with nothing in between, and what eval::reference vouches for its error (in the channel where that is largest).
+// Reflected light with nothing in between, and what is told of its error (in the channel where that is largest).
 struct Reflected {
   Rgb value;
   double bound = 0;
@@ -48,6 +49,13 @@ struct Reflected {
 struct Response {
   Rgb black, slope;
   double bound = 0;
+};
+
+// A surface as it is seen.
+struct SeenPoint {
+  SurfacePoint point;
+  Vec3d view;
+  std::optional<Rgb> base_colour = std::nullopt;  // instead of the paint's
 };
 
 // Where the samples of a pixel lie: over its area, or on one plane that fills it.
@@ -62,15 +70,16 @@ class Lighting {
 
   // Luminance of the light's own surface, or of the environment behind everything.
   Rgb emitted(const StageLight& light, const std::optional<SurfacePoint>& point, const Ray& ray) const;
-  // Of a punctual light, with its shadow. Only for analytic and delta lights.
-  Reflected reflected(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
-                      RayCounts& counts, const std::optional<Rgb>& base_colour = std::nullopt) const;
-  Response response(const StageLight& light, const SurfacePoint& point, const Vec3d& view, const eval::Tolerance& tolerance,
-                    RayCounts& counts) const;
+  // As many as points. Of a punctual light, with its shadow; of others by the plan. Only for analytic and delta lights.
+  std::vector<Reflected> reflected(const StageLight& light, std::span<const SeenPoint> points, const eval::LightPlan& plan,
+                                   RayCounts& counts) const;
+  std::vector<Response> responses(const StageLight& light, std::span<const SeenPoint> points, const eval::LightPlan& plan,
+                                  RayCounts& counts) const;
   // Over pixel and light.
   Sampled sample(const StageLight& light, const PixelTarget& target, const Effort& effort, std::uint64_t seed, RayCounts& counts) const;
 
  private:
+  Reflected from_direction(const StageLight& light, const SeenPoint& seen, const eval::ShadingPoint& shading, RayCounts& counts) const;
   std::optional<SurfacePoint> target_point(const PixelTarget& target, const Ray& ray, RayCounts& counts) const;
 
   const Stage& stage_;

@@ -51,6 +51,8 @@ LightPainter::LightPainter(const Stage& stage, const PinholeCamera& camera, cons
       bound_(value_.size()) {
   tolerance_.relative = std::clamp(shading_share * options.expected_noise, 1e-7, 1e-3);
   tolerance_.absolute = tolerance_.relative * dark_share * typical_luminance();
+  if (options.shading_tolerance > 0) tolerance_ = {options.shading_tolerance, 0};
+  plan_.emplace(light.emitter, tolerance_);
 }
 
 std::uint64_t LightPainter::seed(std::size_t pixel, std::uint64_t purpose) const {

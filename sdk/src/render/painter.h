@@ -11,6 +11,8 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace etendue::rendering {
@@ -21,6 +23,7 @@ struct PainterOptions {
   std::uint64_t seed = 1;
   Shadows shadows = Shadows::unbiased;
   std::uint32_t shadow_samples = 0;
+  double shading_tolerance = 0;
 };
 
 class LightPainter {
@@ -90,6 +93,7 @@ class LightPainter {
   bool is_matt(const SurfacePoint& point) const;
   PixelTarget target(std::uint32_t x, std::uint32_t y, const SurfacePoint* plane) const;
   Reflected at(double x, double y, double beta, RayCounts& counts) const;
+  std::vector<Reflected> at(std::span<const Vec2d> places, double beta, RayCounts& counts) const;
   using Integrand = std::function<Reflected(double x, double y)>;
   Measured over_places(std::uint32_t x, std::uint32_t y, const Integrand& light) const;
   Measured over_colours(std::uint32_t x, std::uint32_t y, double beta, const SurfacePoint& centre, RayCounts& counts) const;
@@ -122,11 +126,12 @@ class LightPainter {
   PainterOptions options_;
   Lighting lighting_;
   eval::Tolerance tolerance_;
-  bool shadows_;                      // something may stand in the light's way
-  std::vector<float> visible_, all_;  // pilot: light with and without shadows
-  std::vector<Rgb> black_, slope_;    // unblocked light at the centres of smooth pixels, as Response
-  std::vector<float> centre_bound_;   // what its error may be
-  std::vector<std::uint8_t> known_;   // where they hold something
+  std::optional<eval::LightPlan> plan_;  // to that tolerance
+  bool shadows_;                         // something may stand in the light's way
+  std::vector<float> visible_, all_;     // pilot: light with and without shadows
+  std::vector<Rgb> black_, slope_;       // unblocked light at the centres of smooth pixels, as Response
+  std::vector<float> centre_bound_;      // what its error may be
+  std::vector<std::uint8_t> known_;      // where they hold something
   std::vector<Rgb> value_, variance_, bound_;
   std::vector<Rgb> mixed_variance_;     // of the samples in smooth pixels whose shadows are mixed
   std::vector<std::uint8_t> is_mixed_;  // which those are

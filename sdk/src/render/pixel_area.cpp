@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
+#include <vector>
 
 namespace etendue::rendering {
 namespace {
@@ -29,13 +31,28 @@ bool has_profile(const StageLight& light) {
 }  // namespace
 
 Reflected LightPainter::at(double x, double y, double beta, RayCounts& counts) const {
-  const Ray ray = camera_.through(x, y);
-  ++counts.primary;
-  const auto point = stage_.first(ray);
-  const Rgb emitted = lighting_.emitted(light_, point, ray);
-  if (!point || beta <= 0 || !(light_.delta || light_.analytic)) return {emitted, 0};
-  const Reflected reflected = lighting_.reflected(light_, *point, -ray.direction, tolerance_, counts);
-  return {emitted + reflected.value * beta, reflected.bound * beta};
+  const Vec2d place{x, y};
+  return at(std::span(&place, 1), beta, counts).front();
+}
+
+std::vector<Reflected> LightPainter::at(std::span<const Vec2d> places, double beta, RayCounts& counts) const {
+  std::vector<Reflected> out;
+  std::vector<SeenPoint> lit;
+  std::vector<std::size_t> index;
+  for (const Vec2d& place : places) {
+    const Ray ray = camera_.through(place.x, place.y);
+    ++counts.primary;
+    const auto point = stage_.first(ray);
+    out.push_back({lighting_.emitted(light_, point, ray), 0});
+    if (!point || beta <= 0 || !(light_.delta || light_.analytic)) continue;
+    lit.push_back({*point, -ray.direction}), index.push_back(out.size() - 1);
+  }
+  const std::vector<Reflected> reflected = lighting_.reflected(light_, lit, *plan_, counts);
+  for (std::size_t k = 0; k < reflected.size(); ++k) {
+    out[index[k]].value += reflected[k].value * beta;
+    out[index[k]].bound = reflected[k].bound * beta;
+  }
+  return out;
 }
 
 // Two places in each of side x side cells: half their squared difference has the mean of the variance inside the cell, so that the pixel's
@@ -92,13 +109,16 @@ Reflected LightPainter::gauss_legendre(const Cell& cell, double beta, int side, 
   static const double two = std::sqrt(1.0 / 12), three = std::sqrt(0.15);
   const std::array<double, 3> place = side == 2 ? std::array{-two, two, 0.0} : std::array{-three, three, 0.0};
   const std::array<double, 3> weight = side == 2 ? std::array{0.5, 0.5, 0.0} : std::array{5 / 18.0, 5 / 18.0, 8 / 18.0};
+  const auto count = static_cast<std::size_t>(side);
+  std::vector<Vec2d> places;
+  for (std::size_t j = 0; j < count; ++j)
+    for (std::size_t i = 0; i < count; ++i)
+      places.push_back({cell.x + cell.side * (0.5 + place[i]), cell.y + cell.side * (0.5 + place[j])});
+  const std::vector<Reflected> light = at(places, beta, counts);
   Reflected sum;
-  for (std::size_t j = 0; j < static_cast<std::size_t>(side); ++j) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(side); ++i) {
-      const Reflected here = at(cell.x + cell.side * (0.5 + place[i]), cell.y + cell.side * (0.5 + place[j]), beta, counts);
-      sum.value += here.value * (weight[i] * weight[j]);
-      sum.bound += here.bound * (weight[i] * weight[j]);
-    }
+  for (std::size_t k = 0; k < light.size(); ++k) {
+    sum.value += light[k].value * (weight[k % count] * weight[k / count]);
+    sum.bound += light[k].bound * (weight[k % count] * weight[k / count]);
   }
   return sum;
 }
@@ -172,8 +192,13 @@ LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, con
   const bool cheap = light_.delta || regions.only_lambert;
   Measured out;
   const bool kinked = !regions.kinked.empty() && std::count(regions.kinks.begin(), regions.kinks.end(), light_.index) > 0;
-  for (const Node& node : kinked ? regions.kinked : cheap ? regions.nodes : regions.coarse) {
-    const Reflected here = at(x + static_cast<double>(node.x), y + static_cast<double>(node.y), beta, counts);
+  const auto& nodes = kinked ? regions.kinked : cheap ? regions.nodes : regions.coarse;
+  std::vector<Vec2d> places;
+  for (const Node& node : nodes) places.push_back({x + static_cast<double>(node.x), y + static_cast<double>(node.y)});
+  const std::vector<Reflected> light = at(places, beta, counts);
+  for (std::size_t k = 0; k < light.size(); ++k) {
+    const Node& node = nodes[k];
+    const Reflected& here = light[k];
     const auto weight = static_cast<double>(node.weight);
     Region& region = all[node.region];
     region.sum += here.value * weight;

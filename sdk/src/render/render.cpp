@@ -113,7 +113,8 @@ Result<Rendered> render(const Scene& scene, const RenderOptions& options, Progre
   Sums sums(pixels);
   for (const StageLight& light : stage.lights()) {
     LightPainter painter(stage, camera, survey, light,
-                         {options.width, options.height, options.expected_noise, options.seed, options.shadows, options.shadow_samples});
+                         {options.width, options.height, options.expected_noise, options.seed, options.shadows, options.shadow_samples,
+                          options.shading_tolerance});
     if (!painter.run(rows)) return cancelled;
     add_light_layers(painter, light.layer, sums, picture);
   }
