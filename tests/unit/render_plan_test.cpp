@@ -63,7 +63,8 @@ TEST(RenderPlan, PicturesKeepTheTolerance) {
       if (pixel % 20 == 0 || pixel % 20 == 19) continue;
       Rgb expected;
       for (std::size_t k = 0; k < 9; ++k) {
-        const double x = static_cast<double>(pixel % 20) + place[k % 3], y = static_cast<double>(pixel / 20) + place[k / 3];
+        const std::size_t column = pixel % 20, row = pixel / 20;
+        const double x = static_cast<double>(column) + place[k % 3], y = static_cast<double>(row) + place[k / 3];
         const Vec3d d = scene.cameras[0].transform.vector({(2 * x / 20 - 1) * half, (1 - 2 * y / 20) * half, -1});
         const Vec3d eye = scene.cameras[0].transform.translation, at = eye + d * (-eye.y / d.y);
         for (const eval::Emitter& emitter : *emitters) {

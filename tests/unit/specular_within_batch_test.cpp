@@ -124,6 +124,7 @@ TEST(SpecularWithinBatch, SaysWhatItDoesNotTake) {
   EXPECT_EQ(SpecularWithinBatch::of(light, 0.2).error().code, "TOLERANCE_OUT_OF_RANGE");
   EXPECT_EQ(SpecularWithinBatch::of(light, std::numeric_limits<double>::quiet_NaN()).error().code, "TOLERANCE_OUT_OF_RANGE");
   EXPECT_EQ(SpecularWithinBatch::of(white(SphereEmitter{{0, 0, 1}, 0.3}), 1e-3).error().code, "METHOD_SHAPE");
+  EXPECT_EQ(SpecularWithinBatch::of(light, 1e-3, Masking::schlick_direct).error().code, "METHOD_LOBE");
   Emitter windowed = light;
   windowed.window = {Falloff::gltf, 3};
   EXPECT_EQ(SpecularWithinBatch::of(windowed, 1e-3).error().code, "METHOD_SHAPE");
@@ -149,6 +150,36 @@ TEST(SpecularWithinBatch, CountsWhatIsNotFinite) {
   Answers small(views.size() - 1);
   EXPECT_EQ(batch->shares(views.points(), small.to(), 0).error().code, "BATCH_SIZES_DIFFER");
   EXPECT_EQ(batch->shares(views.points(), {other.of_f0, other.of_f90, small.bound_f0, {}}, 0).error().code, "BATCH_SIZES_DIFFER");
+}
+
+// Points in doubles, the other masking, and a floor in cd/m2 that is a part of the light here and above all of it there.
+TEST(SpecularWithinBatch, TakesPlacesMaskingAndFloor) {
+  Random random(6);
+  Emitter light = white(rectangle({0.3, -0.2, 0.1}, {0.6, 0, 0.8}, {0, 1, 0}, 1.3, 0.7), 50);
+  const Views views = views_around(light, random, 300);
+  std::vector<SpecularPlace> places;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const ShadingPoint p = views.point(i, 1);
+    places.push_back({p.position, p.normal, p.view, static_cast<double>(views.alpha[i])});
+  }
+  constexpr double tolerance = 1e-3;
+  for (const double least : {0.0, 2.0, 1e4}) {
+    on_each_instruction_set([&] {
+      Answers found(views.size());
+      const auto batch = SpecularWithinBatch::of(light, tolerance, Masking::separable, least);
+      ASSERT_TRUE(batch);
+      ASSERT_TRUE(batch->shares(places, found.to(), -1));
+      for (std::size_t i = 0; i < views.size(); ++i) {
+        ShadingPoint point = views.point(i, 1);
+        point.brdf = GgxLobe{static_cast<double>(views.alpha[i]), {1, 1, 1}, 1, Masking::separable};
+        const Estimate truth = *specular_luminance(light, point, tolerance / 30);
+        const double floor = std::max(1e-3 * lux_at(light, point.position, point.normal), least);
+        EXPECT_NEAR(50 * found.value(i, 1), truth.value.x, tolerance * std::max(truth.value.x, floor) + truth.error.x) << i << " " << least;
+      }
+    });
+  }
+  Answers small(views.size() - 1);
+  EXPECT_EQ(SpecularWithinBatch::of(light, tolerance)->shares(places, small.to(), 0).error().code, "BATCH_SIZES_DIFFER");
 }
 
 }  // namespace

@@ -158,7 +158,7 @@ std::vector<LightWithin> LightPlan::operator()(std::span<const ShadingPoint> poi
     }
   }
   for (const bool diffuse : {false, true}) {
-    for (const std::size_t masking : {0, 1}) {
+    for (const std::size_t masking : {std::size_t{0}, std::size_t{1}}) {
       const Group& group = groups[diffuse ? 1 : 0][masking];
       if (group.index.empty()) continue;
       group.shares(*batch_of(diffuse, masking), [&](std::size_t k, const std::optional<Estimate>& specular) {

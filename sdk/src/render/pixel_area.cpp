@@ -194,6 +194,7 @@ LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, con
   const bool kinked = !regions.kinked.empty() && std::count(regions.kinks.begin(), regions.kinks.end(), light_.index) > 0;
   const auto& nodes = kinked ? regions.kinked : cheap ? regions.nodes : regions.coarse;
   std::vector<Vec2d> places;
+  places.reserve(nodes.size());
   for (const Node& node : nodes) places.push_back({x + static_cast<double>(node.x), y + static_cast<double>(node.y)});
   const std::vector<Reflected> light = at(places, beta, counts);
   for (std::size_t k = 0; k < light.size(); ++k) {
