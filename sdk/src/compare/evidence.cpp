@@ -11,6 +11,10 @@ namespace {
 // Floor of the weights' sigma, as a part of the picture's mean: what is too dark to be seen must not outweigh what is seen.
 constexpr double least_weight_sigma = 1e-3;
 
+// Noise of a pixel, relative to its value, from which on it counts as the doing of few samples: n of equal light that n are expected of
+// have 1 / sqrt(n).
+constexpr double few_samples = 0.5;
+
 Error unsuitable(std::string text) { return Error{"PICTURE_UNSUITABLE", std::move(text), {}, {}, {}}; }
 
 const Layer* layer_of_size(const Picture& picture, const std::string& name, int channels) {
@@ -135,10 +139,11 @@ Result<Evidence> gather(const Picture& ours, const Picture& reference, const std
   for (std::size_t i = 0; i < 3 * count; ++i) {
     const double rounding = float_accumulation * e.reference[i];
     const double theirs = std::max(0.0F, their_variance->pixels[i]), own = our_variance ? std::max(0.0F, our_variance->pixels[i]) : 0;
-    // Where no sample of the reference saw light its variance is not zero but unknown. Were light of the picture's mean seen with the
-    // probability that gives ours, K trials would have the variance |ours| mean / K; a seed is at least one trial.
-    const bool unseen = e.reference[i] == 0 && theirs == 0;
-    const double unknown = unseen ? std::abs(e.ours[i]) * mean / e.seeds : 0;
+    // Where few samples of the reference saw light its variance is unknown, whatever those say: the light that most of them saw may be that
+    // of the others. Were light of the picture's mean seen with the probability that gives ours, K trials would have the variance
+    // |ours| mean / K; a seed is at least one trial.
+    const bool seldom_seen = theirs >= few_samples * few_samples * e.reference[i] * e.reference[i];
+    const double unknown = seldom_seen ? std::abs(e.ours[i]) * mean / e.seeds : 0;
     const double supposed = our_bound ? std::clamp(static_cast<double>(our_bound->pixels[i]), 0.0, own) : 0;
     e.variance[i] = theirs + own + rounding * rounding + unknown;
     e.scatter[i] = theirs;
