@@ -106,23 +106,32 @@ def core_optimum(d, f, share):
 def bounds(d, f, share, limit, bits):
     """The least rms of a core-only reader that any file can have whose full reader's rms is within the limit, and the least of files with
     textures of so many bits. By duality: whatever the weight, the mean of least E_core + weight (E_full - 6 limit^2) is below the mean of
-    E_core of every such file. The weight that makes the most of it is looked for on some of the pairs, since any one gives a bound."""
-    few = np.random.default_rng(1).choice(len(d), min(len(d), 1000), replace=False, p=share)
-    part = share[few] / share[few].sum()
-
-    def value(found, of, weight):
-        return float(np.sqrt(max(((found[0] + weight * (found[1] - 6 * limit * limit)) * of).sum() / 6, 0)))
-
-    def best_weight(weights, function, *rest):
-        values = [value(function(d[few], f[few], w, *rest), part, w) for w in weights]
-        return weights[int(np.argmax(values))]
-
-    w = best_weight(10.0 ** np.arange(0, 7.1, 0.25), search)
-    any_file = value(in_parts(search, d, f, w), share, w)
+    E_core of every such file."""
+    any_file, w = highest_bound(search, (), d, f, share, limit, 10.0 ** np.arange(0, 7.1, 0.25))
     if bits > 8:
         return any_file, any_file
-    w = best_weight(w * 10.0 ** np.array([-0.5, -0.25, 0, 0.25]), of_codes, 255)
-    return any_file, value(in_parts(of_codes, d, f, w, 255), share, w)
+    return any_file, highest_bound(of_codes, (255,), d, f, share, limit, w * 10.0 ** np.array([-0.75, -0.5, -0.25, 0, 0.25]))[0]
+
+
+def highest_bound(function, rest, d, f, share, limit, weights):
+    """The highest of a few bounds, and its weight. Each bounds by itself; they are concave in the weight, with the slope mean E_full - 6 limit^2,
+    so that the best one has a full rms of just the limit. Some of the pairs say how that goes with the weight, all of them by what factor it
+    is another one: a few texels can have most of the error."""
+    few = np.random.default_rng(1).choice(len(d), 1000, p=share)
+    equal = np.full(len(few), 1 / len(few))
+    of_few = np.array([rms_of(function(d[few], f[few], w, *rest)[1], equal) for w in weights])
+    best, best_weight, factor, tried = 0.0, weights[0], 1.0, set()
+    for _ in range(4):
+        i = int(np.argmin(np.abs(np.log(np.maximum(of_few * factor, 1e-12) / limit))))
+        if i in tried:
+            break
+        tried.add(i)
+        core, full = in_parts(function, d, f, weights[i], *rest)
+        value = float(np.sqrt(max(((core + weights[i] * (full - 6 * limit * limit)) * share).sum() / 6, 0)))
+        if value > best:
+            best, best_weight = value, weights[i]
+        factor = rms_of(full, share) / max(of_few[i], 1e-12)
+    return best, best_weight
 
 
 def closed_form(d, f, bits):

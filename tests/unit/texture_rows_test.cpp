@@ -122,6 +122,40 @@ TEST(TextureRows, ATextureOfTheCommonSizeIsReadAsItIs) {
   for (std::size_t i = 0; i < found.size(); ++i) ASSERT_NEAR(found[i], whole->rgba[i], 1e-7);
 }
 
+// A second pass needs no file where the first one has kept what it held: one that is read as it is, and one that is looked up.
+TEST(TextureRows, WhatIsKeptIsReadOnce) {
+  for (const std::uint64_t kept_bytes : {std::uint64_t{0}, std::uint64_t{50 * 77 * 4}}) {
+    const Folder folder;
+    Scene scene;
+    scene.images = {picture(folder, "a.png", 50, 77), picture(folder, "b.png", 30, 40)};
+    const Texture first{0, Encoding::srgb}, second{1, Encoding::srgb};
+    TextureSource::Settings settings;
+    settings.held_texels = 0;
+    settings.kept_bytes = kept_bytes;
+    auto rows = TextureRows::open(scene, {&first, &second, nullptr, nullptr}, settings);
+    ASSERT_TRUE(rows);
+    std::vector<float> found[2];
+    const auto pass = [&](std::vector<float>& out) {
+      out.assign(std::size_t{2} * 50 * 77 * 4, -1.0f);
+      TextureRows::Work work;
+      work.row = [&](const TextureRows::Row& row) {
+        for (std::size_t i = 0; i < 2; ++i)
+          std::copy(row.rgba[i].begin(), row.rgba[i].end(), out.begin() + static_cast<std::ptrdiff_t>((i * 77 + row.y) * 50 * 4));
+      };
+      return rows->for_each(2, nullptr, "test", work);
+    };
+    ASSERT_TRUE(pass(found[0]));
+    std::filesystem::remove(folder.path() / "a.png");
+    std::filesystem::remove(folder.path() / "b.png");
+    const Status again = pass(found[1]);
+    ASSERT_EQ(static_cast<bool>(again), kept_bytes > 0);
+    if (again)
+      EXPECT_EQ(found[0], found[1]);
+    else
+      EXPECT_EQ(again.error().code, "FILE_UNREADABLE");
+  }
+}
+
 // Rows see their survey and that of the next band; writers see rows that are done, each band once and in order.
 TEST(TextureRows, StagesFollowEachOther) {
   const Folder folder;

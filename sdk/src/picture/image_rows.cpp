@@ -52,8 +52,8 @@ OIIO::TypeDesc ImageRows::code_type() const { return coded() ? file_.spec.format
 Status ImageRows::read_codes(std::uint32_t rows, std::vector<std::uint8_t>& codes) {
   OIIO::ImageInput& input = *file_.input;
   const OIIO::ImageSpec& spec = file_.spec;
-  const std::size_t row_bytes = width() * channels() * code_type().size();
-  codes.resize(rows * row_bytes);
+  const std::size_t row_size = row_bytes();
+  codes.resize(rows * row_size);
   const std::uint32_t first = next_;
   if (spec.tile_width == 0) {
     const int begin = spec.y + static_cast<int>(first), end = begin + static_cast<int>(rows);
@@ -66,13 +66,13 @@ Status ImageRows::read_codes(std::uint32_t rows, std::vector<std::uint8_t>& code
     const auto high = static_cast<std::uint32_t>(spec.tile_height), in_tile = next_ % high;
     if (in_tile == 0 || tile_row_.empty()) {
       const std::uint32_t top = next_ - in_tile, bottom = std::min(top + high, height());
-      tile_row_.resize((bottom - top) * row_bytes);
+      tile_row_.resize((bottom - top) * row_size);
       if (!input.read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + static_cast<int>(top), spec.y + static_cast<int>(bottom), 0, 1, 0,
                             spec.nchannels, code_type(), tile_row_.data()))
         return unreadable(image_, input.geterror());
     }
-    std::copy_n(tile_row_.begin() + static_cast<std::ptrdiff_t>(in_tile * row_bytes), row_bytes,
-                codes.begin() + static_cast<std::ptrdiff_t>((next_ - first) * row_bytes));
+    std::copy_n(tile_row_.begin() + static_cast<std::ptrdiff_t>(in_tile * row_size), row_size,
+                codes.begin() + static_cast<std::ptrdiff_t>((next_ - first) * row_size));
   }
   return coded() ? Status(Done{}) : check_finite(codes, first);
 }
@@ -106,9 +106,25 @@ void ImageRows::to_linear(std::span<const std::uint8_t> codes, std::span<float> 
 }
 
 Status ImageRows::read(std::uint32_t rows, std::span<float> rgba) {
+  const std::span<float> out = rgba.first(std::size_t{rows} * width() * 4);
+  const std::size_t begin = next_ * row_bytes(), size = rows * row_bytes();
+  if (begin + size <= kept_.size()) {
+    to_linear(std::span(kept_).subspan(begin, size), out);
+    next_ += rows;
+    return Done{};
+  }
   if (Status read = read_codes(rows, codes_); !read) return read;
-  to_linear(codes_, rgba.first(std::size_t{rows} * width() * 4));
+  if (keeps_ && begin == kept_.size()) {
+    kept_.reserve(bytes());
+    kept_.insert(kept_.end(), codes_.begin(), codes_.end());
+  }
+  to_linear(codes_, out);
   return Done{};
+}
+
+bool ImageRows::rewind() {
+  if (keeps_) next_ = 0;
+  return keeps_;
 }
 
 }  // namespace etendue

@@ -18,6 +18,12 @@ class ImageRows {
   bool has_alpha() const { return file_.spec.nchannels == 2 || file_.spec.nchannels >= 4; }
   std::uint32_t next() const { return next_; }
 
+  // Keeps what is read from now on, as the file has it, so that it is decoded once.
+  void keep() { keeps_ = true; }
+  std::size_t bytes() const { return std::size_t{height()} * row_bytes(); }
+  // From the top again, where it keeps; else false.
+  bool rewind();
+
   // The next rows: 4 channels each, alpha 1 where the file has none. A number that is not finite is the error PICTURE_UNSUITABLE, with its
   // place.
   Status read(std::uint32_t rows, std::span<float> rgba);
@@ -30,13 +36,15 @@ class ImageRows {
 
  private:
   bool coded() const { return !colour_of_code_.empty(); }
+  std::size_t row_bytes() const { return width() * channels() * code_type().size(); }
   Status check_finite(std::span<const std::uint8_t> numbers, std::uint32_t first_row) const;
 
   ImageRef image_;
   ImageFile file_;
   std::uint32_t next_ = 0;
   std::vector<float> colour_of_code_, alpha_of_code_;  // of integers of 8 and 16 bits; empty for others
-  std::vector<std::uint8_t> codes_, tile_row_;
+  std::vector<std::uint8_t> codes_, tile_row_, kept_;
+  bool keeps_ = false;
 };
 
 }  // namespace etendue

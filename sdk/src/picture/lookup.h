@@ -50,19 +50,26 @@ inline Between between(double t, std::uint32_t size, bool nearest) {
   return {static_cast<std::int64_t>(low), nearest ? 0 : x - low};
 }
 
+// Of four texels the mean by their shares: a, and b to its right; below them c and d.
+template <class Texel>
+std::array<double, 4> mean_of(const Texel& a, const Texel& b, const Texel& c, const Texel& d, double right, double below) {
+  std::array<double, 4> out{};
+  for (std::size_t k = 0; k < 4; ++k)
+    out[k] = (a[k] * (1 - right) + b[k] * right) * (1 - below) + (c[k] * (1 - right) + d[k] * right) * below;
+  return out;
+}
+
 // `texel(x, y)` is four floats at indices that are not wrapped yet.
 template <class Texel>
 std::array<double, 4> mixed(const Between& x, const Between& y, bool nearest, Texel texel) {
-  std::array<double, 4> out{};
   const auto a = texel(x.low, y.low);
   if (nearest) {
+    std::array<double, 4> out{};
     for (std::size_t k = 0; k < 4; ++k) out[k] = static_cast<double>(a[k]);
     return out;
   }
   const auto b = texel(x.low + 1, y.low), c = texel(x.low, y.low + 1), d = texel(x.low + 1, y.low + 1);
-  for (std::size_t k = 0; k < 4; ++k)
-    out[k] = (a[k] * (1 - x.share) + b[k] * x.share) * (1 - y.share) + (c[k] * (1 - x.share) + d[k] * x.share) * y.share;
-  return out;
+  return mean_of(a, b, c, d, x.share, y.share);
 }
 
 }  // namespace etendue

@@ -39,7 +39,8 @@ class TextureConversion {
   };
   const Converted* known(const Material& material) const;
   std::optional<Texture> new_texture(const Texture& like, const std::filesystem::path& file, const std::string& name, Encoding encoding);
-  Result<TextureRows> open_rows(const TextureRows::Textures& textures);
+  // `again`: they are read more than once.
+  Result<TextureRows> open_rows(const TextureRows::Textures& textures, bool again);
   Status make_folder() const;
   Status open_all(std::vector<TextureOutput>& outputs, const TextureRows& rows) const;
   static Status close_all(std::vector<TextureOutput>& outputs);

@@ -17,12 +17,9 @@ Status TextureOutput::open(std::uint32_t width, std::uint32_t height, int bits) 
 
 Status TextureOutput::write(std::uint32_t begin, std::uint32_t rows) {
   const std::span<const std::uint16_t> codes(texel(0, begin), std::size_t{rows} * width_ * channels_);
-  for (std::size_t i = 0; i < codes.size(); i += channels_) {
-    for (std::size_t c = 0; c < channels_; ++c) {
-      lowest_[c] = std::min(lowest_[c], codes[i + c]);
-      highest_[c] = std::max(highest_[c], codes[i + c]);
-    }
-  }
+  if (begin == 0) std::copy_n(codes.begin(), channels_, first_.begin());
+  for (std::size_t c = 0; c < channels_; ++c)
+    for (std::size_t i = c; i < codes.size() && !varies_[c]; i += channels_) varies_[c] = codes[i] != first_[c];
   return png_->write(rows, codes);
 }
 

@@ -28,7 +28,7 @@ class TextureOutput {
 
   // The code of a channel that is the same in all texels.
   std::optional<std::uint16_t> constant(std::size_t channel) const {
-    return lowest_[channel] == highest_[channel] ? std::optional(lowest_[channel]) : std::nullopt;
+    return varies_[channel] ? std::nullopt : std::optional(first_[channel]);
   }
   bool is_constant() const;
   void remove() const;
@@ -40,7 +40,8 @@ class TextureOutput {
   std::optional<PngRows> png_;
   std::uint32_t width_ = 0;
   std::vector<std::uint16_t> codes_;
-  std::array<std::uint16_t, 4> lowest_{0xFFFF, 0xFFFF, 0xFFFF, 0xFFFF}, highest_{0, 0, 0, 0};
+  std::array<std::uint16_t, 4> first_{};  // the first texel's codes
+  std::array<bool, 4> varies_{};
 };
 
 // A material's name as a part of a file's name.

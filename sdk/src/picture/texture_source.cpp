@@ -65,12 +65,14 @@ Result<TextureSource> TextureSource::open(const ImageRef& image, const Texture& 
   out.width_ = out.rows_->width();
   out.height_ = out.rows_->height();
   out.has_alpha_ = out.rows_->has_alpha();
+  if (out.rows_->bytes() <= settings.kept_bytes) out.rows_->keep();
   return out;
 }
 
 bool TextureSource::as_it_is() const { return width_ == common_width_ && height_ == common_height_ && is_identity(texture_.uv_transform); }
 
 Status TextureSource::reopen() {
+  if (rows_->rewind()) return Done{};
   Result<ImageRows> rows = ImageRows::open(*image_, texture_.encoding, settings_.max_pixels);
   if (!rows) return rows.error();
   rows_ = std::move(*rows);
@@ -88,6 +90,7 @@ Status TextureSource::start(std::uint32_t width, std::uint32_t height, std::uint
   for (std::vector<float>& band : bands_) band.resize(std::size_t{width} * 4 * band_rows);
   direct_ = as_it_is();
   if (direct_) return reopen();
+  find_columns();
   if (std::uint64_t{width_} * height_ <= settings_.held_texels) {
     keeping_ = Keeping::held;
     return held_.empty() ? hold() : Status(Done{});
@@ -142,6 +145,24 @@ Between TextureSource::row_of(std::uint32_t y) const {
   return between(place(texture_, {0.5, (y + 0.5) / common_height_}).y, height_, texture_.nearest);
 }
 
+void TextureSource::find_columns() {
+  const auto& m = texture_.uv_transform;
+  columns_.clear();
+  if (m[0][1] != 0 || m[1][0] != 0) return;
+  for (std::uint32_t x = 0; x < common_width_; ++x) {
+    const Between across = between(place(texture_, {(x + 0.5) / common_width_, 0.5}).x, width_, texture_.nearest);
+    const auto texel = [this](std::int64_t column) { return static_cast<std::size_t>(wrapped(column, width_, texture_.wrap_u)); };
+    columns_.push_back({texel(across.low), texel(across.low + 1), across.share});
+  }
+}
+
+// Of the endless picture.
+const float* TextureSource::file_row(std::int64_t y, std::size_t slot) const {
+  const std::size_t values = std::size_t{width_} * 4;
+  if (keeping_ == Keeping::held) return held_.data() + static_cast<std::size_t>(wrapped(y, height_, texture_.wrap_v)) * values;
+  return windows_[slot].rows.data() + static_cast<std::size_t>(y - windows_[slot].first) * values;
+}
+
 // Rows `first` to `last` of the endless picture, those that the window holds already kept.
 Status TextureSource::fill(Window& window, std::int64_t first, std::int64_t last) {
   const std::size_t values = std::size_t{width_} * 4;
@@ -190,20 +211,30 @@ void TextureSource::look_up_row(std::uint32_t y, std::span<float> out, Texel tex
   }
 }
 
+void TextureSource::look_up_straight(std::uint32_t y, std::size_t slot, std::span<float> out) const {
+  const Between down = row_of(y);
+  const float* const above = file_row(down.low, slot);
+  if (texture_.nearest) {
+    for (std::size_t x = 0; x < columns_.size(); ++x) std::copy_n(above + 4 * columns_[x].low, 4, out.data() + 4 * x);
+    return;
+  }
+  const float* const below = file_row(down.low + 1, slot);
+  for (std::size_t x = 0; x < columns_.size(); ++x) {
+    const std::size_t low = 4 * columns_[x].low, high = 4 * columns_[x].high;
+    const auto rgba = mean_of(above + low, above + high, below + low, below + high, columns_[x].share, down.share);
+    for (std::size_t c = 0; c < 4; ++c) out[4 * x + c] = static_cast<float>(rgba[c]);
+  }
+}
+
 Status TextureSource::look_up(std::uint32_t y, std::uint32_t in_band, std::size_t slot) {
   if (!is_there() || direct_) return Done{};
   const std::size_t values = std::size_t{common_width_} * 4;
   const std::span<float> out = std::span(bands_[slot]).subspan(in_band * values, values);
   const auto column = [this](std::int64_t x) { return static_cast<std::size_t>(wrapped(x, width_, texture_.wrap_u)); };
-  if (keeping_ == Keeping::window) {
-    const Window& window = windows_[slot];
-    look_up_row(y, out, [&](std::int64_t tx, std::int64_t ty) {
-      return window.rows.data() + (static_cast<std::size_t>(ty - window.first) * width_ + column(tx)) * 4;
-    });
-  } else if (keeping_ == Keeping::held) {
-    look_up_row(y, out, [&](std::int64_t tx, std::int64_t ty) {
-      return held_.data() + (static_cast<std::size_t>(wrapped(ty, height_, texture_.wrap_v)) * width_ + column(tx)) * 4;
-    });
+  if (keeping_ != Keeping::tiles && !columns_.empty()) {
+    look_up_straight(y, slot, out);
+  } else if (keeping_ != Keeping::tiles) {
+    look_up_row(y, out, [&](std::int64_t tx, std::int64_t ty) { return file_row(ty, slot) + column(tx) * 4; });
   } else {
     OIIO::ImageCache& cache = *tiles_->cache;
     OIIO::ImageCache::Perthread* const own = cache.get_perthread_info();

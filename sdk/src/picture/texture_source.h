@@ -39,6 +39,7 @@ class TextureSource {
   struct Settings {
     std::filesystem::path scratch;                       // folder of scratch files, made if need be
     std::uint64_t held_texels = std::uint64_t{1} << 20;  // more are not held whole
+    std::uint64_t kept_bytes = 0;                        // of a file that is read again: fewer are kept as the file has them
     std::uint64_t max_pixels = std::uint64_t{1} << 32;
   };
   // Null image: 1 everywhere. The texture's transform takes coordinates of the common picture.
@@ -69,6 +70,9 @@ class TextureSource {
   };
   bool as_it_is() const;
   Between row_of(std::uint32_t y) const;
+  void find_columns();
+  const float* file_row(std::int64_t y, std::size_t slot) const;
+  void look_up_straight(std::uint32_t y, std::size_t slot, std::span<float> out) const;
   Status hold();
   Status cut_into_tiles();
   Status fill(Window& window, std::int64_t first, std::int64_t last);
@@ -85,6 +89,13 @@ class TextureSource {
   std::optional<ImageRows> rows_;
   std::vector<float> last_row_;  // of the file that was read
   std::vector<float> held_;
+  // Of the common picture, where each row of it is one of the file: the two texels of a file's row that one is between, and the share of
+  // the second.
+  struct Column {
+    std::size_t low, high;
+    double share;
+  };
+  std::vector<Column> columns_;
   std::shared_ptr<Tiles> tiles_;
   std::vector<Window> windows_;            // one a slot
   std::vector<std::vector<float>> bands_;  // one a slot

@@ -161,7 +161,7 @@ Result<MaterialChange> TextureConversion::to_metal_rough(Material& material) {
   const Material before = material;
   const auto model = std::get<SpecularGlossiness>(material.model);
   const bool has_specular = material.specular_gloss_texture.has_value();
-  Result<TextureRows> rows = open_rows({pointer_to(material.base_colour_texture), pointer_to(material.specular_gloss_texture)});
+  Result<TextureRows> rows = open_rows({pointer_to(material.base_colour_texture), pointer_to(material.specular_gloss_texture)}, true);
   if (!rows) return rows.error();
   const Pairs pairs(model);
   const Result<Survey> survey = survey_of(*rows, pairs, options_, threads_, !has_specular, material.name);

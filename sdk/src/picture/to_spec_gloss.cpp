@@ -17,16 +17,23 @@ class StoredSpecGloss {
   Codes operator()(const ColourPair& pair) const {
     Codes codes{};
     Rgb specular;
-    for (int c = 0; c < 3; ++c) specular[c] = colour_.linear(codes[static_cast<std::size_t>(c)] = colour_.nearest(pair.f0[c]));
+    for (int c = 0; c < 3; ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      specular[c] = colour_.linear(codes[channel] = colour_.nearest(pair.f0[c]));
+    }
     const SpecularGlossiness wanted = specular_glossiness_of({pair.diffuse, specular, 1});
-    for (int c = 0; c < 3; ++c) codes[static_cast<std::size_t>(3 + c)] = colour_.nearest(wanted.diffuse[c]);
+    for (int c = 0; c < 3; ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      codes[3 + channel] = colour_.nearest(wanted.diffuse[c]);
+    }
     return codes;
   }
   ColourPair read(const Codes& codes) const {
     SpecularGlossiness stored;
     for (int c = 0; c < 3; ++c) {
-      stored.specular[c] = colour_.linear(codes[static_cast<std::size_t>(c)]);
-      stored.diffuse[c] = colour_.linear(codes[static_cast<std::size_t>(3 + c)]);
+      const auto channel = static_cast<std::size_t>(c);
+      stored.specular[c] = colour_.linear(codes[channel]);
+      stored.diffuse[c] = colour_.linear(codes[3 + channel]);
     }
     const TwoColour read = two_colour_of(stored);
     return {read.diffuse, read.f0};
@@ -66,14 +73,15 @@ Result<MaterialChange> TextureConversion::to_spec_gloss(Material& material) {
   const MetalRough model = fallback.model;
   const Specular lobe = material.lobes.specular.value_or(Specular{});
   Result<TextureRows> rows = open_rows({pointer_to(material.base_colour_texture), pointer_to(material.metal_rough_texture),
-                                        pointer_to(lobe.colour_texture), pointer_to(lobe.factor_texture)});
+                                        pointer_to(lobe.colour_texture), pointer_to(lobe.factor_texture)},
+                                       false);
   if (!rows) return rows.error();
   const double root = model.ior == 0 ? 1 : (model.ior - 1) / (model.ior + 1);
   const auto pair_of = [&](const TexelKey& key) {
+    const Rgb colour = rgb_at(key, 4);
     Rgb k;
     for (int c = 0; c < 3; ++c)
-      k[c] = std::min(root * root * lobe.colour[c] * static_cast<double>(number_at(key, static_cast<std::size_t>(4 + c))), 1.0) *
-             lobe.factor * static_cast<double>(number_at(key, 7));
+      k[c] = std::min(root * root * lobe.colour[c] * colour[c], 1.0) * lobe.factor * static_cast<double>(number_at(key, 7));
     return in_full_reader({product(rgb_at(key, 0), model.base_colour), model.metallic * static_cast<double>(number_at(key, 3)), k});
   };
 

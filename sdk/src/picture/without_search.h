@@ -34,8 +34,8 @@ inline std::optional<double> mask_without_search(const ColourPair& pair, double 
 //
 // With s = 1 - m and b the best base colour, where no bound holds,
 //   k = (f - m b) / s = ((1 + w) s^2 X + m^2 .04) / ((1 + w) s^2 + m^2),   X = ((f + d) s - d) / s^2,
-// a mean of .04 and of what a full reader alone would have. X is greatest where dX/ds = (2 d - (f + d) s) / s^3 is 0 or at s = 1: f if d >=
-// f, else (f + d)^2 / (4 d). With d >= f moreover k <= f, that is b >= f, that is
+// a mean of .04 and of what a full reader alone would have. X is greatest where dX/ds = (2 d - (f + d) s) / s^3 is 0 or at s = 1: there it
+// is (f + d)^2 / (4 d), or f if d >= f. With d >= f moreover k <= f, that is b >= f, that is
 //   (1 + w) (d - f s) + m f - .04 m >= 0,
 // holds if f >= .04 / (2 + w) or d - f >= .04 / (1 + w). Where b is held to 1, b >= f as well.
 // Black diffuse channels, which let masks come near to 1 at will, are left to the search; a margin takes what rounding does.
