@@ -4,7 +4,7 @@
 #include "batch_error.h"
 #include "etendue/specular_light.h"
 #include "lobe_grading.h"
-#include "specular_cells.h"
+#include "specular_layout.h"
 #include "views.h"
 
 #include <fmt/format.h>
@@ -16,6 +16,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace etendue::eval {
 
@@ -52,10 +53,6 @@ struct SideAt {
     const float kappa = of(SideBlock::kappa);
     return 2 * tau / (kappa + std::sqrt(kappa * kappa + 4 * tau * tau));
   }
-  float height(float tau) const {
-    const float z = of(SideBlock::z0) + tau * (of(SideBlock::z1) + tau * of(SideBlock::z2));
-    return z / (1 + tau * tau) - of(SideBlock::view_z);
-  }
   struct Q {
     float x, y;
     float length() const { return std::sqrt(x * x + y * y); }
@@ -68,105 +65,103 @@ struct SideAt {
   }
 };
 
-// First cells, as specular_light.cpp lays them out.
+// First cells, as specular_light.cpp lays them out: sides are cut into parts, rays of those that reach a layer into cells.
 class CellLayout {
  public:
-  CellLayout(const CellPlan& plan, const SideBlock& block, CellList& cells) : plan_(plan), block_(block), cells_(cells) {}
+  explicit CellLayout(const CellPlan& plan) : plan_(plan) {}
 
-  void lay_point(std::size_t point) {
-    layer_ = std::min(block_.point[SideBlock::alpha][point], block_.point[SideBlock::view_z][point]);
-    for (std::size_t side = 0; side < most_sides; ++side) {
-      const SideAt at{block_, side * points_at_once + point, point};
-      const float x0 = at.of(SideBlock::begin), x1 = at.of(SideBlock::end);
-      if (x1 > x0) lay_side(at, x0, x1, side == most_sides - 1);
+  // Of the points that are asked for, whose cells come one after the other.
+  template <class Wanted>
+  void lay(const SideBlock& block, std::size_t count, const Wanted& wanted, CellList& cells) {
+    find_ends(block, plan_.negligible, ends_);
+    parts_.clear(), reaching_->count = 0;
+    for (std::size_t point = 0; point < count; ++point) {
+      if (!wanted(point)) continue;
+      const float layer = std::min(block.point[SideBlock::alpha][point], block.point[SideBlock::view_z][point]);
+      for (std::size_t side = 0; side < most_sides; ++side) {
+        const SideAt at{block, side * points_at_once + point, point};
+        const float x0 = at.of(SideBlock::begin), x1 = at.of(SideBlock::end);
+        if (x1 > x0) cut_side(at, x0, x1, layer, side == most_sides - 1);
+      }
     }
+    find_rays(block, *reaching_);
+    for (const Part& part : parts_) lay_cells(part, block, cells);
   }
 
  private:
-  void lay_side(const SideAt& at, float x0, float x1, bool horizon) {
+  struct Part {
+    std::int32_t point, side;
+    float x0, x1;
+    std::int32_t reaching = -1;  // where it is in that list
+  };
+  template <std::size_t N>
+  struct Marks {
+    std::array<float, N> at;
+    std::size_t count = 1;
+    explicit Marks(float first) { at[0] = first; }
+    void close(float last) {
+      if (count > 2) std::sort(at.begin(), at.begin() + static_cast<std::ptrdiff_t>(count));
+      at[count++] = last;
+    }
+  };
+  static constexpr std::size_t most_marks = 24;
+
+  void cut_side(const SideAt& at, float x0, float x1, float layer, bool horizon) {
     constexpr float far = 0.5f, long_way = 0.8f;
-    const float alpha = at.of(SideBlock::alpha), rest = at.of(SideBlock::rest);
-    low_ = !(at.of(SideBlock::lowest) > std::max(2 * layer_, std::sqrt(plan_.negligible)));
-    at_rim_ = alpha > 0.05f * at.of(SideBlock::rim) && rest > 5 * std::max(at.of(SideBlock::rim), 0.1f * alpha);
-    std::array<float, 24> xs;
-    std::size_t count = 0;
+    const bool low = ends_.side[SideEnds::low][at.side] > 0, rim = ends_.side[SideEnds::rim][at.side] > 0;
+    Marks<most_marks> xs(x0);
     const auto mark = [&](float x) {
-      if (x > x0 && x < x1 && count < xs.size() - 1) xs[count++] = x;
+      if (x > x0 && x < x1 && xs.count < most_marks - 1) xs.at[xs.count++] = x;
     };
-    xs[count++] = x0;
     if (x1 > long_way) mark(far);
     if (x0 < -long_way) mark(-far);
     if (x1 > 0.6f && x0 < -0.6f) mark(0);
-    if (low_ && !horizon) {
-      const float tau0 = at.tau_of(x0), tau1 = at.tau_of(x1), low0 = at.height(tau0), low1 = at.height(tau1);
-      for (const bool at_end : {false, true}) {
-        const float from = at_end ? tau1 : tau0, way = (at_end ? tau0 : tau1) - from, low = std::max(at_end ? low1 : low0, 0.0f);
-        if (low > std::max(2 * layer_, std::sqrt(plan_.negligible))) continue;
-        constexpr float step = 1e-2f;
-        const float slope = (at.height(from + step * way) - low) / step;
-        if (slope > 0)
-          grade_heights(layer_, plan_.negligible, low, slope, false, [&](float h) { mark(at.x_of(from + (h - low) / slope * way)); });
+    if (low && !horizon) {
+      const float tau0 = at.tau_of(x0), tau1 = at.tau_of(x1);
+      const auto grade = [&](float from, float way, float height, float slope) {
+        if (height > std::max(2 * layer, std::sqrt(plan_.negligible)) || !(slope > 0)) return;
+        grade_heights(layer, plan_.negligible, height, slope, false, [&](float h) { mark(at.x_of(from + (h - height) / slope * way)); });
+      };
+      grade(tau0, tau1 - tau0, ends_.side[SideEnds::height_begin][at.side], ends_.side[SideEnds::slope_begin][at.side]);
+      grade(tau1, tau0 - tau1, ends_.side[SideEnds::height_end][at.side], ends_.side[SideEnds::slope_end][at.side]);
+    }
+    xs.close(x1);
+    for (std::size_t k = 0; k + 1 < xs.count; ++k) {
+      if (!(xs.at[k + 1] > xs.at[k])) continue;
+      Part part{static_cast<std::int32_t>(at.point), static_cast<std::int32_t>(at.side), xs.at[k], xs.at[k + 1]};
+      if (low || rim) {
+        part.reaching = static_cast<std::int32_t>(reaching_->count);
+        reaching_->add(part.point, part.side, part.x0, part.x1);
       }
+      parts_.push_back(part);
     }
-    if (count > 2) std::sort(xs.begin(), xs.begin() + static_cast<std::ptrdiff_t>(count));
-    xs[count++] = x1;
-    for (std::size_t k = 0; k + 1 < count; ++k)
-      if (xs[k + 1] > xs[k]) lay_cells(at, xs[k], xs[k + 1]);
   }
-  // n.l at the outer end of the ray to x, and how it rises inwards.
-  struct Rise {
-    float low = 0, slope = 0;
-  };
-  Rise rise_at(const SideAt& at, float x) const {
-    const SideAt::Q q = at.at(at.tau_of(x));
-    const float length = q.length(), p1 = q.p(), base = at.of(SideBlock::base), alpha = at.of(SideBlock::alpha),
-                vz = at.of(SideBlock::view_z);
-    const auto height = [&](float t) {
-      const float p = base + t * (p1 - base), stretch = 2 * p / ((1 - p) * (1 + p)) * alpha / length;
-      const float vm = stretch * at.of(SideBlock::view_x) * q.x, m2 = stretch * stretch * length * length;
-      return (2 * vm + vz * (1 - m2)) / (1 + m2);
-    };
-    constexpr float step = 1e-2f;
-    const float low = std::max(height(1), 0.0f);
-    return {low, (height(1 - step) - low) / step};
-  }
-  void lay_cells(const SideAt& at, float x0, float x1) {
-    const auto add = [&](float t0, float t1) {
-      cells_.add(static_cast<std::int32_t>(at.point), static_cast<std::int32_t>(at.side), x0, x1, t0, t1);
-    };
-    if (!low_ && !at_rim_) return add(0, 1);
-    const float x = 0.5f * (x0 + x1), base = at.of(SideBlock::base), alpha = at.of(SideBlock::alpha);
-    const float p = at.at(at.tau_of(x)).p(), length = p - base;
-    std::array<float, 24> ts;
-    std::size_t count = 0;
+  void lay_cells(const Part& part, const SideBlock& block, CellList& cells) const {
+    if (part.reaching < 0) return cells.add(part.point, part.side, part.x0, part.x1, 0, 1);
+    const auto found = static_cast<std::size_t>(part.reaching);
+    const auto side = static_cast<std::size_t>(part.side);
+    const SideAt at{block, side, static_cast<std::size_t>(part.point)};
+    const float base = at.of(SideBlock::base), alpha = at.of(SideBlock::alpha), p = reaching_->p[found], length = p - base;
+    const float layer = std::min(alpha, at.of(SideBlock::view_z));
+    Marks<most_marks> ts(0);
     const auto mark = [&](float t) {
-      if (t > 0 && t < 1 && count < ts.size() - 1) ts[count++] = t;
+      if (t > 0 && t < 1 && ts.count < most_marks - 1) ts.at[ts.count++] = t;
     };
-    ts[count++] = 0;
-    if (low_) {
-      const float h0 = at.height(at.tau_of(x0)), h = at.height(at.tau_of(x)), h1 = at.height(at.tau_of(x1));
-      const bool along = std::max({h0, h, h1}) < 4 * layer_;
-      Rise steepest;
-      for (const float place : {x0, x, x1})
-        if (const Rise rise = rise_at(at, place); rise.slope > steepest.slope) steepest = rise;
-      if (steepest.slope > 0)
-        grade_heights(layer_, plan_.negligible, steepest.low, steepest.slope, along,
-                      [&](float v) { mark(1 - (v - steepest.low) / steepest.slope); });
-    }
-    if (at_rim_) {
+    const float low = reaching_->low[found], slope = reaching_->slope[found];
+    if (ends_.side[SideEnds::low][side] > 0 && slope > 0)
+      grade_heights(layer, plan_.negligible, low, slope, reaching_->highest[found] < 4 * layer,
+                    [&](float v) { mark(1 - (v - low) / slope); });
+    if (ends_.side[SideEnds::rim][side] > 0)
       grade_rim(alpha, 1 - base, 1 - p, plan_.negligible, plan_.tolerance, [&](float away) { mark((1 - away - base) / length); });
-    }
-    if (count > 2) std::sort(ts.begin(), ts.begin() + static_cast<std::ptrdiff_t>(count));
-    ts[count++] = 1;
-    for (std::size_t k = 0; k + 1 < count; ++k)
-      if (ts[k + 1] > ts[k]) add(ts[k], ts[k + 1]);
+    ts.close(1);
+    for (std::size_t k = 0; k + 1 < ts.count; ++k)
+      if (ts.at[k + 1] > ts.at[k]) cells.add(part.point, part.side, part.x0, part.x1, ts.at[k], ts.at[k + 1]);
   }
 
   const CellPlan& plan_;
-  const SideBlock& block_;
-  CellList& cells_;
-  float layer_ = 0;
-  bool low_ = false, at_rim_ = false;  // the side reaches the horizon's layer, the rim's
+  SideEnds ends_;
+  std::vector<Part> parts_;
+  std::unique_ptr<PartList> reaching_ = std::make_unique_for_overwrite<PartList>();
 };
 
 struct Sums {
@@ -180,7 +175,7 @@ struct Sums {
 // All cells of a block of points, round after round.
 class BlockWithin {
  public:
-  BlockWithin(const RectWithin& rect, const CellPlan& plan) : rect_(rect), plan_(plan) {}
+  BlockWithin(const RectWithin& rect, const CellPlan& plan) : rect_(rect), plan_(plan), layout_(plan) {}
 
   std::array<Sums, points_at_once> sums;
   std::array<bool, points_at_once> kept;  // to the tolerance
@@ -196,8 +191,9 @@ class BlockWithin {
       sums[i] = {};
       const bool sure = block_.point[SideBlock::doubt][i] == 0, lit = block_.point[SideBlock::floor][i] > 0;
       kept[i] = sure && !lit;
-      if (sure && lit) CellLayout(plan_, block_, *cells_).lay_point(i);
     }
+    layout_.lay(
+        block_, count, [&](std::size_t i) { return block_.point[SideBlock::doubt][i] == 0 && floor(i) > 0; }, *cells_);
     for (int round = 0; round < most_rounds && cells_->count > 0; ++round) {
       measure(block_, plan_.tolerance, *cells_);
       next_->clear();
@@ -268,6 +264,7 @@ class BlockWithin {
   const RectWithin& rect_;
   const CellPlan& plan_;
   SideBlock block_;
+  CellLayout layout_;
   std::unique_ptr<CellList> cells_ = std::make_unique_for_overwrite<CellList>(), next_ = std::make_unique_for_overwrite<CellList>();
 };
 
