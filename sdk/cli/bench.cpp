@@ -44,6 +44,10 @@ Json to_json(const MethodTable& table) {
                 {"kind", r.is_ours ? "ours" : "published"},
                 {"in_vectors", !r.one_by_one},
                 {"ns", 0.5 * (r.above.ns + r.across.ns)}};
+    if (table.yardstick && !r.one_by_one) {
+      row["over_ltc_rect_above"] = r.above.ns / table.yardstick->above.ns;
+      row["over_ltc_rect_across"] = r.across.ns / table.yardstick->across.ns;
+    }
     add_figures(row, "above", r.above, table.instruction_sets);
     add_figures(row, "across", r.across, table.instruction_sets);
     row["note"] = r.note;
@@ -71,6 +75,7 @@ std::string text_of(const MethodTable& table) {
                                     {&MethodRow::across, table.shape == "point" ? "risen or set" : "across the horizon"}}) {
     out += fmt::format("\n{:<28}", title);
     for (const InstructionSet& set : sets) out += fmt::format(" {:>10}", set.name + " ns");
+    if (table.yardstick) out += fmt::format(" {:>8}", "of ltc");
     out += fmt::format(" {:>9} {:>9} {:>9} {:>9}  {}\n", "agg", "mean rel", "p99 rel", "max abs",
                        "who of ours errs no more, at what part of its time");
     std::vector<std::size_t> order(table.rows.size());
@@ -82,6 +87,7 @@ std::string text_of(const MethodTable& table) {
       const MethodFigures& f = row.*side;
       out += fmt::format("{:<28}", row.method);
       for (const double ns : f.ns_on) out += fmt::format(" {:>10.2f}", ns);
+      if (table.yardstick) out += row.one_by_one ? std::string(9, ' ') : fmt::format(" {:>8.2f}", f.ns / (*table.yardstick.*side).ns);
       out += fmt::format(" {:>9.2g} {:>9.2g} {:>9.2g} {:>9.2g}  {}\n", f.agg, f.mean_rel, f.p99, f.max_abs, match_of(row, f));
     }
   }
@@ -150,9 +156,10 @@ void add_bench(CLI::App& app, const Common& common, Run& run) {
   verb->footer(
       "\nErrors are those of floats against the exact light in double, for a luminance of 1: agg is the sum of all errors over the\n"
       "sum of the light; relative ones are of what gives a thousandth or more. Methods take turns on one thread, so what slows the\n"
-      "machine down slows all of them. There is a column of times (ns a point) for the machine's best instruction set, by which\n"
+      "machine down slows all of them; it is the processor's time that counts. There is a column of times (ns a point) for the machine's "
+      "best instruction set, by which\n"
       "methods are compared, and one each for AVX2 and SSE4. Of a line and a point light there is the closed form alone. Of lobes,\n"
-      "methods without vectors are timed once, in double.\n"
+      "methods without vectors are timed once, in double; `of ltc` is a time over that of `ltc` of a rectangle in the same turns.\n"
       "\nExamples:\n"
       "  etendue bench rect\n"
       "  etendue bench tube --svg tube.svg\n"

@@ -40,6 +40,7 @@ struct MethodTable {
   std::uint64_t samples, seed;                   // samples: points a side of the horizon
   std::vector<InstructionSet> instruction_sets;  // the best first
   std::vector<MethodRow> rows;
+  std::optional<MethodRow> yardstick;  // what times are told as multiples of: its times alone count
 };
 
 // A published method is matched where one of ours that errs no more costs at most this many times as much.
@@ -65,8 +66,8 @@ double multiply_adds(std::size_t turns);
 constexpr std::size_t bench_batch = 4096;  // points a light, several times in a row: from a cache, and what a light costs once is little
 // What a method does for one light.
 using MethodCall = std::function<void(std::size_t light)>;
-// Median seconds of each call on each instruction set, [call][set], a point of so many lights, in turns; `gflops` gets what multiply-adds
-// reach in the same turns, a list for each set. Nothing if `report`, which is told how much is done, says false.
+// Median seconds of the processor's time of each call on each instruction set, [call][set], a point of so many lights, in turns; `gflops`
+// gets what multiply-adds reach in the same turns, a list for each set. Nothing if `report`, which is told how much is done, says false.
 std::optional<std::vector<std::vector<double>>> measured_seconds(std::span<const MethodCall> calls, std::size_t lights,
                                                                  std::span<const InstructionSet> sets, int rounds,
                                                                  std::vector<std::vector<double>>& gflops,

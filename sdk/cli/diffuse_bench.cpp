@@ -84,7 +84,7 @@ std::vector<Contender> contenders(const Emitter& light) {
 }  // namespace
 
 Result<MethodTable> run_diffuse_bench(const DiffuseBench& bench, const std::function<bool(double)>& report) {
-  MethodTable table{bench.shape, "Diffuse light", bench.samples, bench.seed, measured_instruction_sets(), {}};
+  MethodTable table{bench.shape, "Diffuse light", bench.samples, bench.seed, measured_instruction_sets(), {}, {}};
   const std::size_t sets = table.instruction_sets.size();
   const Kind kind = protocol::kind_named(bench.shape);
   std::vector<std::vector<double>> rates(sets);

@@ -25,7 +25,9 @@ struct Side {
   std::vector<double> exact;
   std::vector<float> of_f0, of_f90;
 
-  Side(const SpecularBench& settings, bool above, const std::function<bool(double)>& report, bool& cancelled) : bench(settings) {
+  const bool with_truth;
+  Side(const SpecularBench& settings, bool above, bool truth, const std::function<bool(double)>& report, bool& cancelled)
+      : bench(settings), with_truth(truth) {
     protocol::Random random(settings.seed + (above ? 0 : 1));
     while (exact.size() < settings.samples && !cancelled) {
       Emitter light;
@@ -73,7 +75,7 @@ struct Side {
     const std::array<float, 10> all{p.x, p.y, p.z, n.x, n.y, n.z, v.x, v.y, v.z, alpha};
     for (std::size_t k = 0; k < all.size(); ++k) columns[k].push_back(all[k]);
     exact.push_back(0);
-    exact.back() = reference(light, point(exact.size() - 1), {1e-5, 1e-9}).value.x;
+    if (with_truth) exact.back() = reference(light, point(exact.size() - 1), {1e-5, 1e-9}).value.x;
     return true;
   }
 };
@@ -158,8 +160,11 @@ std::vector<MethodRow> rows_in_vectors(const Emitter& light) {
 Result<MethodTable> run_specular_bench(const SpecularBench& bench, const std::function<bool(double)>& report) {
   const Error stopped{"CANCELLED", "stopped", {}, {}, {}};
   MethodTable table{
-      bench.shape, fmt::format("Specular light (GGX, f0 {:g})", bench.f0), bench.samples, bench.seed, measured_instruction_sets(), {}};
+      bench.shape, fmt::format("Specular light (GGX, f0 {:g})", bench.f0), bench.samples, bench.seed, measured_instruction_sets(), {}, {}};
   const std::size_t sets = table.instruction_sets.size();
+  table.yardstick = MethodRow{"ltc", "of rectangles", false, false, {}, {}};
+  SpecularBench of_rectangles = bench;
+  of_rectangles.shape = "rect";
   std::vector<std::vector<double>> rates(sets);
   const std::vector<OneByOne> doubles = one_by_one();
   std::vector<MethodRow> in_double;
@@ -172,7 +177,8 @@ Result<MethodTable> run_specular_bench(const SpecularBench& bench, const std::fu
     };
     const auto figures = [&](MethodRow& row) -> MethodFigures& { return above ? row.above : row.across; };
     bool cancelled = false;
-    Side side(bench, above, done(0, 0.3), cancelled);
+    Side side(bench, above, true, done(0, 0.3), cancelled);
+    Side rectangles(of_rectangles, above, false, done(0.3, 0.3), cancelled);
     if (cancelled) return stopped;
     table.samples = side.exact.size();
     for (std::size_t m = 0; m < doubles.size(); ++m) {
@@ -191,10 +197,17 @@ Result<MethodTable> run_specular_bench(const SpecularBench& bench, const std::fu
       for (std::size_t i = 0; i < side.lights.size(); ++i) calls.back()(i);  // also warms up
       figures(row) = errors_of(side.values(), side.exact);
     }
+    std::vector<ShareCall> yardsticks;
+    for (const Emitter& e : rectangles.lights) yardsticks.push_back(*share_call("ltc", e));
+    calls.push_back([&rectangles, &yardsticks](std::size_t i) {
+      const std::size_t k = i % yardsticks.size();
+      const auto out = [&](std::vector<float>& all) { return std::span(all).subspan(k * bench_batch, bench_batch); };
+      yardsticks[k](rectangles.points(k), out(rectangles.of_f0), out(rectangles.of_f90));
+    });
     const auto seconds = measured_seconds(calls, side.lights.size(), table.instruction_sets, bench.rounds, rates, done(0.6, 1));
     if (!seconds) return stopped;
-    for (std::size_t c = 0; c < vectors.size(); ++c) {
-      MethodFigures& f = figures(vectors[c]);
+    for (std::size_t c = 0; c < calls.size(); ++c) {
+      MethodFigures& f = figures(c < vectors.size() ? vectors[c] : *table.yardstick);
       for (const double s : (*seconds)[c]) f.ns_on.push_back(1e9 * s);
       f.ns = f.ns_on.front();
     }
