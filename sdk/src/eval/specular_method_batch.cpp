@@ -23,6 +23,14 @@ HWY_BEFORE_NAMESPACE();
 namespace etendue::eval::HWY_NAMESPACE {
 namespace {
 
+// The whole of a flat light; flat_part of specular_methods.cpp.
+template <PublishedRule rule>
+HWY_INLINE SmallLight flat_light(const Vector3& centre, Lanes area, Lanes height, Lanes alpha) {
+  if constexpr (rule == PublishedRule::punctual) return small_area(centre, area, height, alpha);
+  const Floats d;
+  const Lanes distance2 = dot(centre, centre), below = hn::MulAdd(number(static_cast<float>(1 / pi)), area, distance2);
+  return {centre, hn::Mul(hn::Mul(area, height), hn::Mul(inverse_sqrt(d, distance2), inverse(d, below))), alpha};
+}
 template <PublishedRule rule>
 HWY_INLINE SmallLight small_light(const PlacedRect& rect, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
   const Floats d;
@@ -30,7 +38,7 @@ HWY_INLINE SmallLight small_light(const PlacedRect& rect, const Vector3& positio
   const Lanes height = hn::Neg(dot(centre, normal)), half_x = number(rect.half_x), half_y = number(rect.half_y);
   lit = hn::And(lit, hn::Gt(height, number(0)));
   if constexpr (rule == PublishedRule::punctual || rule == PublishedRule::covered_lobe) {
-    return small_area(centre, number(4 * rect.half_x * rect.half_y), height, lobe.alpha);
+    return flat_light<rule>(centre, number(4 * rect.half_x * rect.half_y), height, lobe.alpha);
   } else {
     const Vector3 x = lobe.frame(numbers(d, rect.x)), y = lobe.frame(numbers(d, rect.y)), mirror = lobe.mirror();
     const Lanes falling = hn::Neg(dot(mirror, normal)), distance = hn::Div(height, hn::Max(falling, number(1e-30f)));
@@ -53,7 +61,7 @@ HWY_INLINE SmallLight small_light(const PlacedDisk& disk, const Vector3& positio
   const Lanes height = hn::Neg(dot(centre, normal)), radius = number(disk.radius), round = number(static_cast<float>(pi));
   lit = hn::And(lit, hn::Gt(height, number(0)));
   if constexpr (rule == PublishedRule::punctual || rule == PublishedRule::covered_lobe) {
-    return small_area(centre, hn::Mul(round, square(radius)), height, lobe.alpha);
+    return flat_light<rule>(centre, hn::Mul(round, square(radius)), height, lobe.alpha);
   } else {
     const Vector3 mirror = lobe.mirror();
     const Lanes falling = hn::Neg(dot(mirror, normal)), distance = hn::Div(height, hn::Max(falling, number(1e-30f)));
@@ -139,6 +147,57 @@ HWY_INLINE SmallLight small_light(const PlacedTube& tube, const Vector3& positio
   }
 }
 
+// covered_strip of specular_methods.cpp.
+HWY_INLINE Shares lit_by_strip(const PlacedTube& tube, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
+  const Floats d;
+  const Lanes zero = number(0), one = number(1), half = number(0.5f), alpha2 = square(lobe.alpha);
+  const Vector3 first = lobe.frame(towards(d, tube.a, position)), second = lobe.frame(towards(d, tube.b, position));
+  // As far as something is above the horizon, and its middle there.
+  const Lanes radius = number(tube.radius), low_a = hn::Add(first.z, radius), low_b = hn::Add(second.z, radius);
+  const Lanes rise = hn::Sub(low_a, low_b), over_rise = inverse(d, hn::IfThenElse(hn::Eq(rise, zero), one, rise));
+  lit = hn::And(lit, hn::Gt(hn::Max(low_a, low_b), zero));
+  const Vector3 crossing = along(first, second - first, hn::Mul(low_a, over_rise));
+  Vector3 a = chosen(hn::Lt(low_a, zero), crossing, first), b = chosen(hn::Lt(low_b, zero), crossing, second);
+  a.z = hn::Max(a.z, hn::Mul(half, hn::Add(a.z, radius))), b.z = hn::Max(b.z, hn::Mul(half, hn::Add(b.z, radius)));
+  const Lanes over_a = inverse_length(a), over_b = inverse_length(b);
+  const Vector3 to_a = scaled(a, over_a), to_b = scaled(b, over_b), v = lobe.frame.view(), sum_a = v + to_a, sum_b = v + to_b,
+                span = to_b - to_a;
+  const Lanes per_a = inverse(d, sum_a.z), per_b = inverse(d, sum_b.z);
+  const Lanes from_x = hn::Mul(sum_a.x, per_a), from_y = hn::Mul(sum_a.y, per_a);
+  const Lanes step_x = hn::MulSub(sum_b.x, per_b, from_x), step_y = hn::MulSub(sum_b.y, per_b, from_y);
+  const Lanes least = number(1e-12f), length2 = hn::Max(hn::MulAdd(step_x, step_x, hn::Mul(step_y, step_y)), least);
+  const Lanes over_length = inverse_sqrt(d, length2), x = hn::Mul(step_x, over_length), y = hn::Mul(step_y, over_length);
+  const Lanes length = hn::Mul(length2, over_length), begin = hn::MulAdd(from_x, x, hn::Mul(from_y, y)), end = hn::Add(begin, length);
+  // Where the lobe's middle is along the strip.
+  const Lanes a2 = hn::MulAdd(square(hn::MulSub(from_x, y, hn::Mul(from_y, x))), one, alpha2), a1 = hn::Sqrt(a2);
+  const auto over_both = [&](Lanes w2, Lanes s0, Lanes s1)
+                             ETENDUE_INLINE_LAMBDA { return inverse(d, hn::Mul(hn::MulAdd(s0, s0, w2), hn::MulAdd(s1, s1, w2))); };
+  const auto turned = [&](Lanes w, Lanes w2, Lanes s0, Lanes s1, Lanes over) ETENDUE_INLINE_LAMBDA {
+    const Lanes across = hn::Mul(w, hn::Sub(s1, s0)), product = hn::NegMulAdd(s0, s1, w2);
+    return hn::MulAdd(hn::Mul(across, product), over, angle_of(d, across, hn::MulAdd(s0, s1, w2)));
+  };
+  const Lanes over_ends = over_both(a2, begin, end), below = turned(a1, a2, begin, end, over_ends);
+  const Lanes squares = hn::Mul(hn::Mul(hn::Sub(end, begin), hn::Add(end, begin)), over_ends);
+  const Lanes mean = hn::Mul(hn::Mul(hn::Mul(a1, a2), squares), inverse(d, hn::Max(below, least)));
+  const Lanes close = saturate(hn::Mul(hn::Sub(mean, begin), over_length)), near = hn::Mul(close, sum_a.z);
+  const Lanes share = hn::Mul(near, inverse(d, hn::MulAdd(hn::Sub(one, close), sum_b.z, near)));
+  const Vector3 chord = along(to_a, span, share);
+  const Lanes over_chord = inverse_length(chord), over_distance = hn::Mul(hn::MulAdd(hn::Sub(over_b, over_a), share, over_a), over_chord);
+  const Vector3 l = scaled(chord, over_chord), sum = v + l;
+  const Lanes total = dot(sum, sum), over_z = inverse(d, sum.z), bent = hn::Mul(total, over_z);
+  const Lanes beta = hn::Abs(hn::Mul(hn::MulSub(sum.x, y, hn::Mul(sum.y, x)), over_z));
+  const Lanes narrower = hn::Mul(hn::Sqrt(hn::Max(dot(span, span), least)), over_length);
+  const Lanes angle = hn::Mul(half, hn::Min(hn::Mul(radius, over_distance), l.z));
+  const Lanes w = hn::Mul(angle, hn::Mul(hn::Mul(bent, square(over_z)), narrower));
+  const auto across = [&](Lanes s) ETENDUE_INLINE_LAMBDA { return hn::Mul(s, inverse_sqrt(d, hn::MulAdd(s, s, alpha2))); };
+  const Lanes wider2 = hn::MulAdd(beta, beta, alpha2), longer = hn::Mul(number(static_cast<float>(pi / 4)), w);
+  const Lanes s0 = hn::Sub(begin, longer), s1 = hn::Add(end, longer);
+  const Lanes lengthwise = turned(hn::Sqrt(wider2), wider2, s0, s1, over_both(wider2, s0, s1));
+  const Lanes covered = hn::Mul(hn::Sub(across(hn::Add(beta, w)), across(hn::Sub(beta, w))), lengthwise);
+  const Lanes slow = hn::Min(hn::Mul(hn::Add(bent, bent), lobe.seen_area(l.z)), one);
+  return LobeLanes::split(hn::Mul(hn::Mul(covered, slow), number(static_cast<float>(0.5 / pi))), total, hn::Gt(l.z, zero));
+}
+
 using Of = std::span<float>;
 // By that of the rules which `rule` is.
 template <PublishedRule... rules, class Placed>
@@ -148,8 +207,11 @@ std::size_t by_rule(PublishedRule rule, const Placed& light, const SpecularPoint
     if (rule != of()) return;
     without = over_points_and_views(points, of_f0, of_f90, where_none,
                                     [&light](const Vector3& position, const LobeLanes& lobe, Lit& lit) ETENDUE_INLINE_LAMBDA {
-                                      return lobe.template lit_by<decltype(of)::value == PublishedRule::covered_lobe>(
-                                          small_light<decltype(of)::value>(light, position, lobe, lit));
+                                      if constexpr (decltype(of)::value == PublishedRule::covered_strip)
+                                        return lit_by_strip(light, position, lobe, lit);
+                                      else
+                                        return lobe.template lit_by<decltype(of)::value == PublishedRule::covered_lobe>(
+                                            small_light<decltype(of)::value>(light, position, lobe, lit));
                                     });
   };
   (by(std::integral_constant<PublishedRule, rules>()), ...);
@@ -170,8 +232,8 @@ std::size_t OverPublishedSun(PublishedRule rule, const PlacedSun& light, const S
   return by_rule<punctual, covered_lobe, drobot_20, karis_10, karis_11, karis_14>(rule, light, points, of_f0, of_f90, none);
 }
 std::size_t OverPublishedTube(PublishedRule rule, const PlacedTube& light, const SpecularPoints& points, Of of_f0, Of of_f90, float none) {
-  return by_rule<punctual, covered_lobe, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended>(rule, light, points,
-                                                                                                                     of_f0, of_f90, none);
+  return by_rule<punctual, covered_lobe, covered_strip, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended>(
+      rule, light, points, of_f0, of_f90, none);
 }
 
 }  // namespace
@@ -188,11 +250,11 @@ HWY_EXPORT(OverPublishedSphere);
 HWY_EXPORT(OverPublishedSun);
 HWY_EXPORT(OverPublishedTube);
 
-constexpr std::array<std::string_view, 22> all_names{
-    "punctual",        "covered-lobe",     "drobot-1-20-mended", "drobot-1-20-fitted", "karis-10",        "karis-11-mended",
-    "karis-14",        "karis-18",         "karis-19",           "karis-20",           "karis-20-mended", "eden-sphere",
-    "eden-tube",       "eden-tube-mended", "frostbite-point",    "frostbite-16",       "frostbite-6",     "eden-rect",
-    "karis-billboard", "karis-cone",       "ltc-line",           "ltc-line-ends"};
+constexpr std::array<std::string_view, 23> all_names{
+    "punctual",        "covered-lobe",    "covered-strip",    "drobot-1-20-mended", "drobot-1-20-fitted", "karis-10",
+    "karis-11-mended", "karis-14",        "karis-18",         "karis-19",           "karis-20",           "karis-20-mended",
+    "eden-sphere",     "eden-tube",       "eden-tube-mended", "frostbite-point",    "frostbite-16",       "frostbite-6",
+    "eden-rect",       "karis-billboard", "karis-cone",       "ltc-line",           "ltc-line-ends"};
 // A sun by the sine of its angle.
 struct SunView {
   Vec3d towards;
@@ -209,8 +271,8 @@ bool takes(PublishedRule rule) {
   else if constexpr (std::is_same_v<Shape, SunView>)
     return is({punctual, covered_lobe, drobot_20, karis_10, karis_11, karis_14, frostbite_6, karis_cone});
   else if constexpr (std::is_same_v<Shape, TubeView>)
-    return is({punctual, covered_lobe, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended, frostbite_point,
-               frostbite_16, ltc_line, ltc_line_ends});
+    return is({punctual, covered_lobe, covered_strip, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended,
+               frostbite_point, frostbite_16, ltc_line, ltc_line_ends});
   else if constexpr (std::is_same_v<Shape, RectView>)
     return is({punctual, covered_lobe, drobot_20, drobot_20_fitted, frostbite_point, frostbite_16, eden_rect, karis_billboard});
   else

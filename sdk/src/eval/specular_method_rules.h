@@ -12,6 +12,7 @@ namespace etendue::eval {
 enum class PublishedRule {
   punctual,
   covered_lobe,
+  covered_strip,
   drobot_20,
   drobot_20_fitted,
   karis_10,
