@@ -199,6 +199,13 @@ HWY_INLINE Shares lit_by_strip(const PlacedTube& tube, const Vector3& position, 
 }
 
 using Of = std::span<float>;
+template <PublishedRule rule, class Placed>
+HWY_INLINE Shares shares_by(const Placed& light, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
+  if constexpr (rule == PublishedRule::covered_strip)
+    return lit_by_strip(light, position, lobe, lit);
+  else
+    return lobe.template lit_by<rule == PublishedRule::covered_lobe>(small_light<rule>(light, position, lobe, lit));
+}
 // By that of the rules which `rule` is.
 template <PublishedRule... rules, class Placed>
 std::size_t by_rule(PublishedRule rule, const Placed& light, const SpecularPoints& points, Of of_f0, Of of_f90, float where_none) {
@@ -206,13 +213,8 @@ std::size_t by_rule(PublishedRule rule, const Placed& light, const SpecularPoint
   const auto by = [&](auto of) {
     if (rule != of()) return;
     without = over_points_and_views(points, of_f0, of_f90, where_none,
-                                    [&light](const Vector3& position, const LobeLanes& lobe, Lit& lit) ETENDUE_INLINE_LAMBDA {
-                                      if constexpr (decltype(of)::value == PublishedRule::covered_strip)
-                                        return lit_by_strip(light, position, lobe, lit);
-                                      else
-                                        return lobe.template lit_by<decltype(of)::value == PublishedRule::covered_lobe>(
-                                            small_light<decltype(of)::value>(light, position, lobe, lit));
-                                    });
+                                    [&light](const Vector3& position, const LobeLanes& lobe, Lit& lit)
+                                        ETENDUE_INLINE_LAMBDA { return shares_by<decltype(of)::value>(light, position, lobe, lit); });
   };
   (by(std::integral_constant<PublishedRule, rules>()), ...);
   return without;

@@ -111,7 +111,8 @@ Rgb covered_strip(const TubeView& tube, const LobeView& lobe) {
       (wider * (s1 / (wider2 + s1 * s1) - s0 / (wider2 + s0 * s0)) + std::atan2(wider * (s1 - s0), wider2 + s0 * s1)) / pi;
   const HalfAngle h = half_angle(v, l);
   const double slow = 4 * h.v_dot_h / std::sqrt(h.cos2) * l.z * GgxView(lobe.alpha(), lobe.lobe.masking, v).masked(l.z);
-  return fresnel_reflectance(lobe.lobe, h.v_dot_h) * (0.5 * (across(beta + w) - across(beta - w)) * lengthwise * std::min(slow, 1.0));
+  return fresnel_reflectance(lobe.lobe, h.v_dot_h) *
+         (0.5 * (across(beta + w) - across(beta - w)) * std::max(lengthwise, 0.0) * std::min(slow, 1.0));
 }
 constexpr SpecularRules strip_rules{.tube = covered_strip};
 constexpr SpecularRules covered_rules{
