@@ -64,16 +64,18 @@ def pipeline(build, options, figure):
 
 
 def calm(build, options, figure):
-    """The mean difference of the metal mask between neighbouring texels, over that of each texel's own best mask; 1: there is no play."""
+    """The mean difference of the metal mask between neighbouring texels, over that of each texel's own best mask; and below what no choice of
+    masks within the texels' limits can bring it, by the gaps between neighbours' intervals."""
     files = sorted(path for path in options.corpus.rglob("*.gltf") if b"KHR_materials_pbrSpecularGlossiness" in path.read_bytes())
     if not files:
         print("calm: no specular-glossiness asset under %s, skipped" % options.corpus)
-    for file in files:
-        with tempfile.TemporaryDirectory(dir=options.scratch) as folder:
-            command = [build / "etendue", "convert", file, pathlib.Path(folder) / "new.glb", "--materials", "metal-rough", "--json"]
-            done = subprocess.run(command, stdout=subprocess.PIPE, check=False)
-        materials = json.loads(done.stdout)["result"][0].get("materials", []) if done.returncode == 0 else []
-        for material in materials:
-            if material["metal_variation_of_best"] > 0:
-                name = "%s, %s: the mask's variation, over %.2e" % (file.stem, material["name"], material["metal_variation_of_best"])
-                figure(name, material["metal_variation"] / material["metal_variation_of_best"], 1)
+        return
+    with tempfile.TemporaryDirectory(dir=options.scratch) as folder:
+        words = [build / "tests/acceptance/material_mask_play", folder, *files]
+        lines = subprocess.run(words, stdout=subprocess.PIPE, check=True, text=True).stdout.splitlines()
+    for row in map(json.loads, lines):
+        best = row["told_best"]
+        name = "%s, %s: " % (pathlib.Path(row["file"]).stem, row["material"])
+        figure(name + "the mask's variation, over %.2e" % best, row["stored"] / best, 1)
+        print("  %-84s %10.3g" % ("what no masks within the limits can go below", row["least"] / best))
+        print("  %-84s %10.3g" % ("share of texels with more than one such mask", row["with_play"]), flush=True)
