@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "etendue/far_luminance.h"
 #include "etendue/specular_light.h"
 #include "eval_protocol.h"
 #include "float_points.h"
@@ -150,6 +151,33 @@ TEST(SpecularWithinBatch, CountsWhatIsNotFinite) {
   Answers small(views.size() - 1);
   EXPECT_EQ(batch->shares(views.points(), small.to(), 0).error().code, "BATCH_SIZES_DIFFER");
   EXPECT_EQ(batch->shares(views.points(), {other.of_f0, other.of_f90, small.bound_f0, {}}, 0).error().code, "BATCH_SIZES_DIFFER");
+}
+
+// Of a light that is far a few places are taken, as far_luminance takes them: both are within their bounds, which are parts of the value.
+TEST(SpecularWithinBatch, FarLightsAreAFewPlaces) {
+  Random random(8);
+  const Emitter light = white(rectangle({0, 0, 6}, {1, 0, 0}, {0, -1, 0}, 0.3, 0.1));
+  Views views;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3d position{random.uniform(-2, 2), random.uniform(-2, 2), 0};
+    Vec3d view = random.direction();
+    view.z = std::abs(view.z) + 0.05;
+    views.add(position, {0, 0, 1}, normalised(view), random.log_uniform(0.2, 1));
+  }
+  for (const double tolerance : {1e-2, 1e-4}) {
+    on_each_instruction_set([&] {
+      Answers found(views.size());
+      ASSERT_TRUE(SpecularWithinBatch::of(light, tolerance)->shares(views.points(), found.to(), -1));
+      for (std::size_t i = 0; i < views.size(); ++i) {
+        const auto few = far_luminance(light, views.point(i, 0.04), tolerance);
+        ASSERT_TRUE(few) << i;
+        const double value = found.value(i, 0.04);
+        EXPECT_LE(found.bound(i, 0.04), tolerance * value) << i;
+        // The floats that shares are written in have 1e-7.
+        EXPECT_NEAR(value, few->value.x, few->error.x + found.bound(i, 0.04) + 2e-7 * value) << i;
+      }
+    });
+  }
 }
 
 // Points in doubles, the other masking, and a floor in cd/m2 that is a part of the light here and above all of it there.

@@ -30,9 +30,10 @@ class SpecularWithinBatch {
   // Errors: METHOD_SHAPE: no uniform rectangle without a window; METHOD_LOBE: other masking; TOLERANCE_OUT_OF_RANGE.
   static Result<SpecularWithinBatch> of(const Emitter& emitter, double tolerance, Masking masking = Masking::correlated, double least = 0);
 
-  // Most points take cells of floats; where a float has too few digits or the cells do not get there, specular_luminance in double is asked
-  // for the tolerance. Bounds are estimates, as those of specular_luminance are; tests/acceptance/specular --only adaptive counts how many
-  // answers keep them. Points with a number that is not finite become `where_none`, and are counted. Errors: BATCH_SIZES_DIFFER.
+  // Points that the light is far from take a few places of it (far_luminance.h), most others cells of floats; where a float has too few
+  // digits or the cells do not get there, specular_luminance in double is asked for the tolerance. Bounds are estimates, as those of
+  // specular_luminance are; tests/acceptance/specular --only adaptive counts how many answers keep them. Points with a number that is not
+  // finite become `where_none`, and are counted. Errors: BATCH_SIZES_DIFFER.
   BatchOutcome shares(const SpecularPoints& points, const BoundedShares& to, float where_none) const;
   BatchOutcome shares(std::span<const SpecularPlace> points, const BoundedShares& to, float where_none) const;
   const Rgb& scale() const { return scale_; }  // cd/m2

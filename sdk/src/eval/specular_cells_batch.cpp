@@ -365,28 +365,34 @@ HWY_NOINLINE void measure(const SideBlock& block, CellList& cells, std::size_t f
   struct Ray {
     Cell shape, risen;
   };
-  const auto ray = [&](const Place& q, Cell q_length, Cell u1, Cell per_q, Cell factor, bool counts) ETENDUE_INLINE_LAMBDA {
-    const Cell view_q = hn::Mul(vx, q.x), way = hn::Sub(rest, u1);
-    const Cell row = hn::Mul(hn::Mul(factor, hn::Mul(way, per_q)), hn::Mul(cell_number(static_cast<float>(4 / pi)), t_span));
+  const Cell half_level = hn::Mul(cell_number(0.5f), level), half_level_risen = hn::Mul(cell_number(0.5f), level_risen);
+  std::array<Cell, NT> ts;
+  for (std::size_t j = 0; j < NT; ++j) ts[j] = hn::MulAdd(t_span, cell_number(gt.x[j]), t0);
+  const auto ray = [&](const Place& q, Cell u1, Cell per_q, Cell factor, bool counts) ETENDUE_INLINE_LAMBDA {
+    // Everything hangs on p and on the direction of q: slopes m = 2 alpha p / (1 - p^2).
+    const Cell view_q = hn::Mul(hn::Mul(vx, q.x), per_q), way = hn::Sub(rest, u1);
+    const Cell row =
+        hn::Mul(hn::Mul(hn::Mul(factor, per_q), hn::Mul(way, per_q)), hn::Mul(cell_number(static_cast<float>(8 / pi)), t_span));
     Ray sum{zero, zero};
     each<NT>([&](auto j) ETENDUE_INLINE_LAMBDA {
-      const Cell t = hn::MulAdd(t_span, cell_number(gt.x[j]), t0), u = hn::NegMulAdd(t, way, rest);
-      const Cell p = hn::Sub(one, u), ratio = hn::Mul(p, per_q), less = hn::Mul(u, hn::Sub(two, u)), more = hn::MulAdd(p, p, one);
-      const Cell stretch = hn::Mul(twice_alpha, ratio), sv = hn::Mul(stretch, view_q), m = hn::Mul(stretch, q_length), m2 = hn::Mul(m, m);
-      const Cell less2 = hn::Mul(less, less), over = inverse_sqrt(d, hn::Add(less2, m2));
-      const Cell c = hn::Max(hn::MulAdd(vz, less, sv), zero);
-      const Cell up = hn::MulAdd(hn::Add(sv, sv), less, hn::Mul(vz, hn::Sub(less2, m2)));
+      const Cell u = hn::NegMulAdd(ts[j], way, rest), p = hn::Sub(one, u);
+      const Cell less = hn::Mul(u, hn::Sub(two, u)), more = hn::MulAdd(p, p, one);
+      const Cell m = hn::Mul(twice_alpha, p), m2 = hn::Mul(m, m), sv = hn::Mul(m, view_q), c_signed = hn::MulAdd(vz, less, sv);
+      const Cell over = inverse_sqrt(d, hn::MulAdd(less, less, m2)), c = hn::Max(c_signed, zero);
+      // n.l |h'|^2 = 2 v.m (1 - p^2) + n.v ((1 - p^2)^2 - m^2), m times 1 - p^2
+      const Cell up = hn::NegMulAdd(vz, m2, hn::Mul(less, hn::Add(sv, c_signed)));
       const Cell nl = hn::Max(hn::Mul(up, hn::Mul(over, over)), zero);
       const Cell root = hn::Sqrt(hn::MulAdd(hn::Mul(nl, nl), less_alpha2, alpha2));
       const Cell seen = hn::MulAdd(nl, of_height, hn::Mul(of_root, root));
       const Cell per = inverse(d, hn::Mul(hn::Mul(more, more), hn::Mul(more, seen)));
-      const Cell shape = hn::Mul(hn::Mul(hn::Add(nl, nl), c), per), taken = hn::Mul(hn::Mul(seen, per), less);
-      const Cell away = hn::Min(hn::Max(hn::NegMulAdd(c, over, one), zero), one), away2 = hn::Mul(away, away);
-      const Cell w = hn::Mul(hn::Mul(away2, away2), away);
-      const Cell f = hn::Mul(hn::Mul(row, cell_number(gt.weight[j])), ratio);
-      const Cell f_shape = hn::Mul(f, hn::NegMulAdd(taken, level, shape));
-      const Cell f_risen = hn::Mul(f, hn::NegMulAdd(taken, level_risen, hn::Mul(shape, w)));
-      sum.shape = hn::Add(sum.shape, f_shape), sum.risen = hn::Add(sum.risen, f_risen);
+      // Halves of W and of the level.
+      const Cell shape = hn::Mul(hn::Mul(nl, c), per), taken = hn::Mul(hn::Mul(seen, per), less);
+      const Cell away = hn::NegMulAdd(c, over, one), away2 = hn::Mul(away, away);
+      const Cell w = hn::Mul(hn::Mul(away2, away2), away), f = hn::Mul(row, p);
+      const Cell f_shape = hn::Mul(f, hn::NegMulAdd(taken, half_level, shape));
+      const Cell f_risen = hn::Mul(f, hn::NegMulAdd(taken, half_level_risen, hn::Mul(shape, w)));
+      const Cell weight = cell_number(gt.weight[j]);
+      sum.shape = hn::MulAdd(f_shape, weight, sum.shape), sum.risen = hn::MulAdd(f_risen, weight, sum.risen);
       if (counts) column_shape[j] = hn::Add(column_shape[j], f_shape), column_risen[j] = hn::Add(column_risen[j], f_risen);
     });
     return sum;
@@ -414,7 +420,7 @@ HWY_NOINLINE void measure(const SideBlock& block, CellList& cells, std::size_t f
     const Cell out_a = hn::Mul(hn::Mul(ua, hn::Sub(two, ua)), per_a), out_b = hn::Mul(hn::Mul(ub, hn::Sub(two, ub)), per_b);
     const Cell apart_area = hn::Sub(hn::MulSub(out_a, out_a, all), hn::Mul(out_b, out_b));
     const Cell area = hn::Mul(hn::Mul(turns, half_over_pi), hn::IfThenElse(exact, apart_area, hn::Mul(r_sum, r_step)));
-    const Ray in = ray(q, q_length, u1, per_q, weight, true);
+    const Ray in = ray(q, u1, per_q, weight, true);
     for (std::size_t k = 0; k < told; ++k) {
       const Cell high = cell_number(gx.high[i][k]);
       of_shape[k] = hn::MulAdd(in.shape, high, of_shape[k]), of_risen[k] = hn::MulAdd(in.risen, high, of_risen[k]);
@@ -433,7 +439,7 @@ HWY_NOINLINE void measure(const SideBlock& block, CellList& cells, std::size_t f
   if (HWY_UNLIKELY(!hn::AllFalse(d, missed))) {
     for (const auto& [q, squared] : {std::pair(from, from2), std::pair(to, to2)}) {
       const Cell q2 = hn::Max(squared, cell_number(1e-20f)), per_q = inverse_sqrt(d, q2);
-      const Ray in = ray(q, hn::Mul(q2, per_q), u_of(hn::Mul(q2, per_q), hn::Sqrt(hn::Add(one, q2))), per_q, q2, false);
+      const Ray in = ray(q, u_of(hn::Mul(q2, per_q), hn::Sqrt(hn::Add(one, q2))), per_q, q2, false);
       most_shape = hn::Max(most_shape, hn::IfThenElseZero(missed, hn::Abs(in.shape)));
       most_risen = hn::Max(most_risen, hn::IfThenElseZero(missed, hn::Abs(in.risen)));
     }
@@ -448,7 +454,7 @@ HWY_NOINLINE void measure(const SideBlock& block, CellList& cells, std::size_t f
   std::array<Cell, told> t_shape{zero, zero, zero, zero}, t_risen = t_shape;
   each<NT>([&](auto j) ETENDUE_INLINE_LAMBDA {
     for (std::size_t k = 0; k < told; ++k) {
-      const Cell high = cell_number(gt.high[j][k]);
+      const Cell high = cell_number(gt.high[j][k] * gt.weight[j]);
       t_shape[k] = hn::MulAdd(column_shape[j], high, t_shape[k]), t_risen[k] = hn::MulAdd(column_risen[j], high, t_risen[k]);
     }
   });

@@ -4,6 +4,7 @@
 #include "batch_error.h"
 #include "etendue/specular_light.h"
 #include "lobe_grading.h"
+#include "specular_far.h"
 #include "specular_layout.h"
 #include "views.h"
 
@@ -39,6 +40,7 @@ constexpr double neglected = 0.25;
 struct CellPlan {
   double tolerance;
   float negligible;  // part of the light that no cell is laid out for
+  FarOrders far;
 };
 
 // One side of one point, in floats.
@@ -184,16 +186,17 @@ class BlockWithin {
   PlaceBlock places;
   void run(std::size_t count) {
     constexpr int most_rounds = 8;
+    far_shares(rect_, places, count, plan_.far, far);
     lay_sides(rect_, places, count, block_);
     cells_->full = next_->full = false;
     cells_->clear();
     for (std::size_t i = 0; i < count; ++i) {
       sums[i] = {};
       const bool sure = block_.point[SideBlock::doubt][i] == 0, lit = block_.point[SideBlock::floor][i] > 0;
-      kept[i] = sure && !lit;
+      kept[i] = is_far(i) || (sure && !lit);
     }
     layout_.lay(
-        block_, count, [&](std::size_t i) { return block_.point[SideBlock::doubt][i] == 0 && floor(i) > 0; }, *cells_);
+        block_, count, [&](std::size_t i) { return !is_far(i) && block_.point[SideBlock::doubt][i] == 0 && floor(i) > 0; }, *cells_);
     for (int round = 0; round < most_rounds && cells_->count > 0; ++round) {
       measure(block_, plan_.tolerance, *cells_);
       next_->clear();
@@ -206,8 +209,10 @@ class BlockWithin {
     }
     // Whose cells are missing is not known.
     if (cells_->full || next_->full)
-      for (std::size_t i = 0; i < count; ++i) kept[i] = kept[i] && !(floor(i) > 0);
+      for (std::size_t i = 0; i < count; ++i) kept[i] = kept[i] && (is_far(i) || !(floor(i) > 0));
   }
+  FarShares far;
+  bool is_far(std::size_t i) const { return far.bound[i] >= 0; }
   float floor(std::size_t i) const { return block_.point[SideBlock::floor][i]; }
 
  private:
@@ -298,7 +303,7 @@ BoundedShare in_double(const Emitter& white, const RectWithin& rect, const Vec3d
 
 CellPlan plan_for(double tolerance) {
   // Facets may send four times as much of the light elsewhere as at the middle of the lobe (specular_light.cpp).
-  return {tolerance, static_cast<float>(neglected * tolerance / 4)};
+  return {tolerance, static_cast<float>(neglected * tolerance / 4), FarOrders(tolerance)};
 }
 
 }  // namespace
@@ -345,7 +350,10 @@ std::size_t SpecularWithinBatch::over(std::size_t count, const Vec3d& origin, co
     block->run(number);
     for (std::size_t i = 0; i < number; ++i) {
       const std::size_t index = first + i;
-      if (block->kept[i]) {
+      if (block->is_far(i)) {
+        const FarShares& far = block->far;
+        write(index, {far.of_f0[i], far.of_f90[i], far.bound[i] * far.of_f0[i], far.bound[i] * far.of_f90[i]});
+      } else if (block->kept[i]) {
         write(index, bounded(block->sums[i], block->floor(i), tolerance_));
       } else if (std::all_of(places.numbers.begin(), places.numbers.end(),
                              [&](const auto& numbers) { return std::isfinite(numbers[i]); })) {
