@@ -47,6 +47,9 @@ Json to_json(const MethodTable& table) {
     if (table.yardstick && !r.one_by_one) {
       row["over_ltc_rect_above"] = r.above.ns / table.yardstick->above.ns;
       row["over_ltc_rect_across"] = r.across.ns / table.yardstick->across.ns;
+      for (std::size_t k = 0; k < table.instruction_sets.size(); ++k)
+        row["ltc_rect_ns_by_set"][table.instruction_sets[k].name] = {{"above", table.yardstick->above.ns_on[k]},
+                                                                     {"across", table.yardstick->across.ns_on[k]}};
     }
     add_figures(row, "above", r.above, table.instruction_sets);
     add_figures(row, "across", r.across, table.instruction_sets);
