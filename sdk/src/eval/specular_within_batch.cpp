@@ -67,6 +67,16 @@ struct SideAt {
   }
 };
 
+// Lists of a block, 1.4 MB, kept by each thread: to ask for their pages takes longer than a few points do.
+struct Lists {
+  CellList cells, next;
+  PartList parts;
+};
+Lists& lists() {
+  thread_local const std::unique_ptr<Lists> own = std::make_unique_for_overwrite<Lists>();
+  return *own;
+}
+
 // First cells, as specular_light.cpp lays them out: sides are cut into parts, rays of those that reach a layer into cells.
 class CellLayout {
  public:
@@ -163,7 +173,7 @@ class CellLayout {
   const CellPlan& plan_;
   SideEnds ends_;
   std::vector<Part> parts_;
-  std::unique_ptr<PartList> reaching_ = std::make_unique_for_overwrite<PartList>();
+  PartList* reaching_ = &lists().parts;
 };
 
 struct Sums {
@@ -270,7 +280,7 @@ class BlockWithin {
   const CellPlan& plan_;
   SideBlock block_;
   CellLayout layout_;
-  std::unique_ptr<CellList> cells_ = std::make_unique_for_overwrite<CellList>(), next_ = std::make_unique_for_overwrite<CellList>();
+  CellList *cells_ = &lists().cells, *next_ = &lists().next;
 };
 
 }  // namespace
