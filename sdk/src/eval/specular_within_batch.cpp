@@ -72,9 +72,10 @@ struct Lists {
   CellList cells, next;
   PartList parts;
 };
+thread_local std::unique_ptr<Lists> own_lists;
 Lists& lists() {
-  thread_local const std::unique_ptr<Lists> own = std::make_unique_for_overwrite<Lists>();
-  return *own;
+  if (own_lists == nullptr) own_lists = std::make_unique_for_overwrite<Lists>();
+  return *own_lists;
 }
 
 // First cells, as specular_light.cpp lays them out: sides are cut into parts, rays of those that reach a layer into cells.
