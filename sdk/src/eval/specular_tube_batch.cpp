@@ -31,18 +31,17 @@ class TubeLobe {
     const Lanes over_alpha = inverse(d, alpha);
     const Vector3 eye = frame.view();
     const Shares shares = by_moments(frame, alpha, above.somewhere, [&](MomentSums& sums) ETENDUE_INLINE_LAMBDA {
-      std::array<Quadratic, 8> sides{};
-      std::array<Lit, 8> seen{};
+      std::array<Quadratic, 5> sides{};
+      std::array<Lit, 5> seen{};
       const auto side = [&](std::size_t at, const Side& of)
                             ETENDUE_INLINE_LAMBDA { sides[at] = bent_side(of.from, of.to, eye, over_alpha), seen[at] = of.seen; };
       const auto in_two = [&](const CapArc& of, const ArcPart& part, std::size_t at) ETENDUE_INLINE_LAMBDA {
         arc<2>(of, part, half_of(part.half), part.half, eye, over_alpha, sides.data() + at, seen.data() + at);
       };
-      // 4 parts of the longer arc, up to a whole turn, 2 of what is half a turn at most.
-      const Turn quarter = half_of(above.a.cut.first.half);
-      arc<4>(tube.a, above.a.cut.first, half_of(quarter), quarter, eye, over_alpha, sides.data(), seen.data());
-      in_two(tube.b, above.b.cut.first, 4);
-      side(6, above.sides[0]), side(7, above.sides[1]);
+      // 2 parts of the longer arc, which is up to a whole turn, 1 of what is half a turn at most.
+      in_two(tube.a, above.a.cut.first, 0);
+      arc<1>(tube.b, above.b.cut.first, above.b.cut.first.half, above.b.cut.first.half, eye, over_alpha, sides.data() + 2, seen.data() + 2);
+      side(3, above.sides[0]), side(4, above.sides[1]);
       add_sides(sides, seen, sums);
       const Lit cuts = hn::And(lit, above.sides[2].seen);
       if (hn::AllFalse(d, cuts)) return;
