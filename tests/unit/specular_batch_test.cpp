@@ -236,6 +236,29 @@ TEST(SpecularBatch, OfTubesIsFiniteLight) {
           expect_finite_light(name, white(TubeEmitter{{-size, 0, 0}, {size, 0, 0}, radius * size, Caps::round}), size, random);
   });
 }
+// Close to its axis' line beyond an end the nearer cap hides nearly all else, or all: its arc is most of a turn.
+TEST(SpecularBatch, MomentsOfTubesSeenEndOnAreCloseToTheDouble) {
+  Random random(14);
+  const Emitter tube = white(TubeEmitter{{0, 0, 0}, {0, 0, 1}, 0.2, Caps::round});
+  Views views;
+  for (int i = 0; i < 1000; ++i) {
+    const double height = -0.25 - random.uniform(0, 1), angle = random.uniform(0, 2 * pi), off = random.uniform(0, 0.6);
+    Placement p{tube, {off * std::cos(angle), off * std::sin(angle), height}, random.direction(), {}};
+    p.normal = normalised(p.normal + Vec3d{0, 0, 1});
+    const Vec3d view = view_of(p, random);
+    if (dot(view, p.normal) > 0.05) views.add(p.position, p.normal, view, std::pow(10.0, random.uniform(-2, 0)));
+  }
+  on_each_instruction_set([&] {
+    const Answers found = answers("moments", tube, views);
+    double apart = 0, sum = 0;
+    for (std::size_t i = 0; i < views.alpha.size(); ++i) {
+      const double value = 0.04 * static_cast<double>(found.of_f0[i]) + static_cast<double>(found.of_f90[i]);
+      const double expected = find_specular_method("moments")->luminance(tube, views.point(i, 0.04, 1))->x;
+      apart += std::abs(value - expected), sum += expected;
+    }
+    EXPECT_LT(apart, 0.01 * sum);
+  });
+}
 // A tube without a length is a sphere, and one that is hardly longer is hardly another light.
 TEST(SpecularBatch, OfTheShortestTubeIsThatOfASphere) {
   Random random(12);

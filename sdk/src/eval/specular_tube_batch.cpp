@@ -31,18 +31,25 @@ class TubeLobe {
     const Lanes over_alpha = inverse(d, alpha);
     const Vector3 eye = frame.view();
     const Shares shares = by_moments(frame, alpha, above.somewhere, [&](MomentSums& sums) ETENDUE_INLINE_LAMBDA {
-      std::array<Quadratic, 5> sides{};
-      std::array<Lit, 5> seen{};
+      std::array<Quadratic, 7> sides{};
+      std::array<Lit, 7> seen{};
       const auto side = [&](std::size_t at, const Side& of)
                             ETENDUE_INLINE_LAMBDA { sides[at] = bent_side(of.from, of.to, eye, over_alpha), seen[at] = of.seen; };
       const auto in_two = [&](const CapArc& of, const ArcPart& part, std::size_t at) ETENDUE_INLINE_LAMBDA {
         arc<2>(of, part, half_of(part.half), part.half, eye, over_alpha, sides.data() + at, seen.data() + at);
       };
-      // 2 parts of the longer arc, which is up to a whole turn, 1 of what is half a turn at most.
-      in_two(tube.a, above.a.cut.first, 0);
-      arc<1>(tube.b, above.b.cut.first, above.b.cut.first.half, above.b.cut.first.half, eye, over_alpha, sides.data() + 2, seen.data() + 2);
-      side(3, above.sides[0]), side(4, above.sides[1]);
-      add_sides(sides, seen, sums);
+      // 1 part of what is half a turn at most, and of the longer arc 2 unless it is most of a turn.
+      const ArcPart &longer = above.a.cut.first, &shorter = above.b.cut.first;
+      arc<1>(tube.b, shorter, shorter.half, shorter.half, eye, over_alpha, sides.data(), seen.data());
+      side(1, above.sides[0]), side(2, above.sides[1]);
+      const bool wide = !hn::AllFalse(d, hn::And(hn::And(lit, longer.seen), hn::Lt(longer.half.c, number(-0.3f))));
+      if (HWY_UNLIKELY(wide)) {
+        const Turn quarter = half_of(longer.half);
+        arc<4>(tube.a, longer, half_of(quarter), quarter, eye, over_alpha, sides.data() + 3, seen.data() + 3);
+      } else {
+        in_two(tube.a, longer, 3);
+      }
+      for (std::size_t i = 0; i < (wide ? 7U : 5U); ++i) add_side(sides[i], seen[i], sums);
       const Lit cuts = hn::And(lit, above.sides[2].seen);
       if (hn::AllFalse(d, cuts)) return;
       add_side(bent_side(above.sides[2].from, above.sides[2].to, eye, over_alpha), cuts, sums);
