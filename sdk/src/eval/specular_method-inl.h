@@ -13,6 +13,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace etendue::eval::HWY_NAMESPACE {
 
+// To 12 bits on any machine.
+HWY_INLINE Lanes rough_inverse(Lanes x) {
+#if HWY_ARCH_X86 && HWY_TARGET < HWY_EMU128
+  return near_inverse(x);
+#else
+  return hn::Div(number(1), x);
+#endif
+}
+
 // The light stands for a small one in that direction, of any length: BRDF times cosine there, D with `density_alpha`, times the factor.
 struct SmallLight {
   Vector3 direction;
@@ -50,12 +59,12 @@ struct LobeLanes {
     Lanes value;
     if constexpr (covered) {
       // v.h = |v + l| / 2 and n.h = (v + l).z / |v + l| leave no root. To 12 bits.
-      const Lanes over_z = near_inverse(sum.z), over_z2 = hn::Mul(over_z, over_z), bent = hn::Mul(total, over_z);
+      const Lanes over_z = rough_inverse(sum.z), over_z2 = hn::Mul(over_z, over_z), bent = hn::Mul(total, over_z);
       const Lanes r2 = hn::Mul(hn::Mul(light.factor, number(static_cast<float>(0.5 / pi))), hn::Mul(bent, over_z2));
       const Lanes t = hn::Sub(hn::MulAdd(across, over_z2, alpha2), r2), rest = hn::Mul(hn::Mul(number(4), alpha2), r2);
       const Lanes length2 = hn::Max(hn::MulAdd(t, t, rest), number(1e-30f)), over_length = near_inverse_sqrt(d, length2);
       const Lanes longer = hn::MulAdd(length2, over_length, hn::Abs(t));
-      const Lanes above = hn::IfThenElse(hn::Gt(t, zero), hn::Mul(rest, near_inverse(longer)), longer);
+      const Lanes above = hn::IfThenElse(hn::Gt(t, zero), hn::Mul(rest, rough_inverse(longer)), longer);
       value = hn::Mul(hn::Mul(hn::Mul(half, above), over_length), hn::Min(hn::Mul(hn::Add(bent, bent), seen), one));
     } else {
       const Lanes a2 = hn::Mul(light.density_alpha, light.density_alpha), wide = hn::Mul(total, inverse(d, hn::MulAdd(a2, along2, across)));
