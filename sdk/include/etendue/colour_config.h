@@ -51,8 +51,9 @@ struct TableSettings {
 // what OpenColorIO says; VIEW_INVALID unless exposure and white balance are finite; TABLE_INVALID.
 class ColourConfig {
  public:
-  // "linear Rec.709", "sRGB texture", "ACEScg", "ACES2065-1", "linear Rec.2020", "linear P3", "raw"; displays "sRGB", "Display P3", "Rec.709"
-  // (gamma 2.4), each with the views "Standard" (no tone curve: what is beyond 1 stays so) and "Raw". Whites are adapted by Bradford.
+  // "linear Rec.709", "sRGB texture", "ACEScg", "ACES2065-1", "linear Rec.2020", "linear P3", "raw"; displays "sRGB", "Display P3",
+  // "Rec.709" (gamma 2.4), each with the views "Standard" (no tone curve: what is beyond 1 stays so) and "Raw". Whites are adapted by
+  // Bradford.
   static Result<ColourConfig> built_in();
   static Result<ColourConfig> from_file(const std::filesystem::path& file);
   // The file that $OCIO names, or the built-in one where it is not set: for programs whose user asks for it.
