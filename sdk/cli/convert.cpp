@@ -34,6 +34,7 @@ struct Options {
   int depth = 2, bits = 8;
   unsigned samples = 1024, jobs = 1;
   bool force = false, emissive_shapes = false;
+  std::optional<ColourStep> to_linear_rec709;  // of the space that --texture-space names
 };
 
 struct Converted {
@@ -153,12 +154,8 @@ Status show_worst(Converted& job, const Options& options, const Scene& before, c
 // Colour textures that are in the space that --texture-space names, as everything else takes them. A conversion of materials reads them
 // again: 16 bits then, so that they are rounded to --bits once.
 Status read_colours(Converted& job, const Options& options, Scene& scene, const fs::path& folder, Progress* progress) {
-  const auto config = options.ocio.empty() ? ColourConfig::from_environment() : ColourConfig::from_file(options.ocio);
-  if (!config) return config.error();
-  const auto step = config->to_linear_rec709(options.texture_space);
-  if (!step) return step.error();
   const int bits = options.materials.empty() ? options.bits : 16;
-  auto losses = convert_colour_textures(scene, *step, {folder, bits, options.import.max_pixels, progress});
+  auto losses = convert_colour_textures(scene, *options.to_linear_rec709, {folder, bits, options.import.max_pixels, progress});
   if (!losses) return losses.error();
   job.losses = std::move(*losses);
   return Done{};
@@ -185,7 +182,7 @@ void convert_one(Converted& job, const Options& options, Size size, Progress* pr
   const auto model = model_of(options.materials);
   static const std::unique_ptr<Importer> all_materials = make_gltf_importer(GltfMaterials::all);
   const bool is_gltf = (*importer)->describe().id == all_materials->describe().id;
-  const bool all = is_gltf && (model || !options.texture_space.empty());
+  const bool all = is_gltf && (model || options.to_linear_rec709);
   Result<Imported> imported = (all ? all_materials.get() : *importer)->read(job.in, options.import);
   if (!imported) return void(job.error = imported.error());
   imported->diagnostics.append(read_photometric_lights(imported->scene));
@@ -195,7 +192,7 @@ void convert_one(Converted& job, const Options& options, Size size, Progress* pr
     return;
   }
   const TextureFolder textures(job.out, exporter->describe().id == "rig");
-  if (!options.texture_space.empty()) {
+  if (options.to_linear_rec709) {
     if (Status read = read_colours(job, options, imported->scene, textures.path(), progress); !read) return void(job.error = read.error());
   }
   if (model) {
@@ -257,10 +254,21 @@ void run_jobs(std::vector<Converted>& jobs, const Options& options, Size size, B
   for (std::thread& thread : threads) thread.join();
 }
 
-int run_convert(const Common& common, const Options& options) {
+Result<ColourStep> to_linear_rec709(const Options& options) {
+  const auto config = options.ocio.empty() ? ColourConfig::from_environment() : ColourConfig::from_file(options.ocio);
+  if (!config) return config.error();
+  return config->to_linear_rec709(options.texture_space);
+}
+
+int run_convert(const Common& common, Options options) {
   Session session("convert", common);
   const Result<Size> size = parse_size(options.size);
   if (!size) return session.fail(size.error());
+  if (!options.texture_space.empty()) {
+    auto step = to_linear_rec709(options);
+    if (!step) return session.fail(step.error());
+    options.to_linear_rec709 = *std::move(step);
+  }
   Result<std::vector<Converted>> jobs = jobs_of(options);
   if (!jobs) return session.fail(jobs.error());
   {
