@@ -18,6 +18,7 @@
 #include "etendue/directional_albedo.h"
 #include "etendue/illuminance_batch.h"
 #include "etendue/light_within.h"
+#include "etendue/probe.h"
 #include "etendue/published.h"
 #include "etendue/render.h"
 #include "etendue/rig_batch.h"
@@ -171,8 +172,11 @@ class Evaluator {
   // Whether the method takes this light.
   Status accepts(const Emitter& emitter, const std::string& name) const;
   // Of patches: a light's card comes before it is asked for; the emitter stays where it is.
-  bool wants_cards() const { return patches_; }
-  void take_card(const Emitter& emitter, eval::LightCard card) { cards_.emplace(&emitter, std::move(card)); }
+  bool wants_cards() const { return patches_ || looked_up_ != nullptr; }
+  void take_card(const Emitter& emitter, eval::LightCard card) {
+    const eval::LightCard& kept = cards_.emplace(&emitter, std::move(card)).first->second;
+    if (looked_up_ != nullptr) lookups_.emplace(&emitter, looked_up_->lookups(emitter, kept));
+  }
 
  private:
   Status choose_rule(const Options& options);
@@ -183,9 +187,12 @@ class Evaluator {
   Answer by_samples(const Emitter& emitter, const PointRow& point) const;
 
   std::optional<Answer> by_card(const Emitter& emitter, const PointRow& point) const;
+  std::optional<Answer> by_lookup(const Emitter& emitter, const PointRow& point) const;
 
   bool lambert_ = true, fast_ = false, patches_ = false;
+  const eval::CardMethod* looked_up_ = nullptr;
   std::map<const Emitter*, eval::LightCard> cards_;
+  std::map<const Emitter*, eval::CardLookups> lookups_;
   const eval::DiffuseMethod* published_ = nullptr;  // of lambert
   const eval::DiffuseRule* rule_ = nullptr;         // of other diffuse BRDFs
   const eval::SpecularMethod* specular_ = nullptr;  // of specular lobes
@@ -226,6 +233,8 @@ Result<Evaluator> Evaluator::of(const Options& o) {
     e.patches_ = true;
     return e;
   }
+  e.looked_up_ = eval::find_card_method(o.method);
+  if (e.looked_up_ != nullptr) return e;
   e.adaptive_ = distributions.contains(o.brdf) && o.method == "adaptive";
   e.planned_ = o.tolerance_alone && !e.lambert_;
   if (o.method == "exact" || o.method == "reference" || e.adaptive_) {
@@ -277,6 +286,16 @@ Status Evaluator::accepts(const Emitter& emitter, const std::string& name) const
                  "--lights chooses some",
                  {}};
   };
+  if (looked_up_ != nullptr && !by_lookup(emitter, probe)) {
+    return Error{
+        "METHOD_UNSUPPORTED",
+        fmt::format("light '{}': expected a rectangle without a range, and the lobe that {} takes: lambert of drobot-diffuse-card, "
+                    "round GGX of correlated masking and Schlick's Fresnel of the others",
+                    name, looked_up_->name),
+        {},
+        "--lights chooses some",
+        {}};
+  }
   if (patches_ && !by_card(emitter, probe)) {
     return Error{
         "METHOD_UNSUPPORTED",
@@ -338,6 +357,15 @@ std::optional<Answer> Evaluator::by_card(const Emitter& emitter, const PointRow&
   return Answer{found->value * scale, largest(found->error) * scale, "patches"};
 }
 
+// What a lookup is off by is measured here, against patches.
+std::optional<Answer> Evaluator::by_lookup(const Emitter& emitter, const PointRow& p) const {
+  const std::optional<Rgb> luminance = looked_up_->luminance(emitter, lookups_.at(&emitter), shading_point(p));
+  const std::optional<Answer> exact = by_card(emitter, p);
+  if (!luminance || !exact) return std::nullopt;
+  const Rgb value = *luminance * (lambert_ ? pi : 1);
+  return Answer{value, largest(value - exact->value) + exact->bound, looked_up_->name};
+}
+
 Answer Evaluator::by_rule(const Emitter& emitter, const PointRow& p) const {
   const eval::ShadingPoint point = shading_point(p);
   if (rule_ == nullptr && specular_ == nullptr) {
@@ -360,6 +388,7 @@ Answer Evaluator::by_samples(const Emitter& emitter, const PointRow& p) const {
 Answer Evaluator::operator()(const Emitter& emitter, const PointRow& p) const {
   if (sampling_) return by_samples(emitter, p);
   if (patches_) return by_card(emitter, p).value_or(Answer{{}, 0, "patches"});
+  if (looked_up_ != nullptr) return by_lookup(emitter, p).value_or(Answer{{}, 0, looked_up_->name});
   if (adaptive_) return adaptively(emitter, p).value_or(Answer{{}, 0, "adaptive"});
   if (published_ != nullptr) {
     // What a published approximation is off by is measured here, against the closed form.
@@ -613,7 +642,8 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
               "exact, fast (floats; of other diffuse BRDFs a few dozen evaluations, whose bound is an estimate that 99 of 100 keep), "
               "reference, monte-carlo (samples of the light, with a statistical bound), patches (pictures on rectangles, under lambert and "
               "ggx, to "
-              "about --tolerance), or a method's name: published ones of diffuse "
+              "about --tolerance), one lookup into them (drobot-diffuse-card of lambert; drobot-card, ltc-along-f, ltc-perpendicular of "
+              "ggx), or a method's name: published ones of diffuse "
               "light; of ggx adaptive (to --tolerance), moments, ltc, ltc-two-lobes, and published ones such as karis-14, drobot-elongated "
               "(of "
               "every round lobe), frostbite-6 (the sun). A name that is none lists them. With --tolerance alone, but for lambert: whatever "
@@ -646,7 +676,8 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
       "  etendue eval studio.rig.json --points floor.csv --brdf oren-nayar --roughness 0.8 --method fast\n"
       "  etendue eval studio.rig.json --points floor.csv --brdf standard --method monte-carlo --samples 1000000 --seed 7\n"
       "  etendue eval studio.rig.json --points floor.csv --lights key --method frostbite-12\n"
-      "  etendue eval screen.rig.json --points floor.csv --brdf ggx --alpha 0.2 --method patches --tolerance 1e-2");
+      "  etendue eval screen.rig.json --points floor.csv --brdf ggx --alpha 0.2 --method patches --tolerance 1e-2\n"
+      "  etendue eval screen.rig.json --points floor.csv --method drobot-diffuse-card");
   verb->callback([&common, &run, options, method, tolerance] {
     options->tolerance_alone = method->count() == 0 && tolerance->count() > 0;
     run = [&common, options] { return run_eval(common, *options); };

@@ -2,6 +2,7 @@
 // rectangular light. Baselines by name; by_patches of light_card.h is what they are measured beside.
 #pragma once
 
+#include "etendue/diffuse_card.h"
 #include "etendue/light_card.h"
 
 #include <functional>
@@ -23,13 +24,23 @@ Rgb prefiltered_karis(const FilteredRadiance& radiance, const Vec3d& r, double a
 Rgb prefiltered_frostbite(const FilteredRadiance& radiance, const Vec3d& r, double alpha, unsigned samples, double texel_sr,
                           double last_level);
 
+// What a method looks up in: the card, and for some a volume made of it.
+struct CardLookups {
+  const LightCard* card;  // not null
+  std::optional<DiffuseCard> over_distance;
+};
+
 // One lookup into the card, times the light of a uniform rectangle.
 struct CardMethod {
   std::string_view name;    // lower case, words joined by hyphens
   std::string_view source;  // authors, year
   std::string_view note;
-  // Towards the view, cd/m2. Nothing for other lights than rectangles without a window and other lobes than round correlated GGX.
-  std::optional<Rgb> (*luminance)(const Emitter&, const LightCard&, const ShadingPoint&) = nullptr;
+  // Towards the view, cd/m2. Nothing for other lights than rectangles without a window and other lobes than the method's: round correlated
+  // GGX, or Lambert of `drobot-diffuse-card`.
+  std::optional<Rgb> (*luminance)(const Emitter&, const CardLookups&, const ShadingPoint&) = nullptr;
+  bool over_distance = false;  // looks up in the volume
+  // Once a light, whose card stays where it is.
+  CardLookups lookups(const Emitter& emitter, const LightCard& card) const;
 };
 std::span<const CardMethod> card_methods();
 // Null if no method has the name.

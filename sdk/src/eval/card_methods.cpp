@@ -4,6 +4,8 @@
 #include "etendue/specular_methods.h"
 
 #include "contour.h"
+#include "drobot_point.h"
+#include "illuminance.h"
 #include "specular_view.h"
 
 #include <algorithm>
@@ -78,20 +80,20 @@ std::optional<Lookup> along_f(const std::array<Vec3d, 3>& r) {
 }
 
 template <std::optional<Lookup> (*where)(const std::array<Vec3d, 3>&)>
-std::optional<Rgb> by_cosine(const Emitter& emitter, const LightCard& card, const ShadingPoint& point) {
+std::optional<Rgb> by_cosine(const Emitter& emitter, const CardLookups& in, const ShadingPoint& point) {
   const PolygonEmitter* rectangle = rectangle_of(emitter);
   const std::optional<GgxLobe> lobe = correlated_ggx(point.brdf);
   if (rectangle == nullptr || !lobe) return std::nullopt;
   const std::optional<Rgb> light = uniform("ltc-unclipped", emitter, point);
   if (!light || *light == Rgb{}) return light;
   const auto at = where(in_cosine_space(*rectangle, point, lobe->alpha));
-  return at ? *light * looked_up(card, *at) : Rgb{};
+  return at ? *light * looked_up(*in.card, *at) : Rgb{};
 }
 
 // Drobot 2014, 1.23 and 1.28: the cone of the half angle alpha about the mirror direction as a square of the same area on the light's
 // plane, cut with the rectangle; its middle is looked up, with the cone's width (1.26). The light is that of `moments`, so that the
 // lookup's error alone is measured; 1.28 takes 1.20's.
-std::optional<Rgb> drobot(const Emitter& emitter, const LightCard& card, const ShadingPoint& point) {
+std::optional<Rgb> drobot(const Emitter& emitter, const CardLookups& in, const ShadingPoint& point) {
   const PolygonEmitter* rectangle = rectangle_of(emitter);
   const std::optional<GgxLobe> lobe = correlated_ggx(point.brdf);
   if (rectangle == nullptr || !lobe) return std::nullopt;
@@ -111,7 +113,27 @@ std::optional<Rgb> drobot(const Emitter& emitter, const LightCard& card, const S
     return 0.5 * (low + high);
   };
   const Lookup where{{middle(at.x, half / length(u)), middle(at.y, half / length(v))}, 2 * half / std::sqrt(length(cross(u, v)))};
-  return *light * looked_up(card, where);
+  return *light * looked_up(*in.card, where);
+}
+
+// Drobot 2014, 1.24: the volume is asked at the point that stands for the light (clamped to it, his first form) and at its distance. As
+// above, times the light's closed form instead of 1.16's.
+std::optional<Rgb> drobot_diffuse(const Emitter& emitter, const CardLookups& in, const ShadingPoint& point) {
+  const PolygonEmitter* rectangle = rectangle_of(emitter);
+  const auto* lambert = std::get_if<Lambert>(&point.brdf);
+  if (rectangle == nullptr || lambert == nullptr || is_window(emitter.window) || !in.over_distance) return std::nullopt;
+  const std::optional<RectView> seen = rect_view(*rectangle, emitter.two_sided, point.position);
+  if (!seen) return std::nullopt;
+  Emitter plain = emitter;
+  plain.pattern = {};
+  const LocalFrame local(point.position, point.normal);
+  const auto lux = closed_illuminance(plain, point.position, local, horizons_of(local, point.normal, point.surface_normal));
+  const Rgb light = lambert->base_colour * lux.value_or(Rgb{}) / pi;
+  if (light == Rgb{}) return light;
+  Vec3d at = clamped_point(*seen, point.normal);
+  if (!std::isfinite(length(at))) at = seen->centre;
+  const auto& [origin, u, v] = rectangle->uv_frame;
+  return light * in.over_distance->lookup(place_of(at + point.position - origin, u, v), length(at));
 }
 
 constexpr CardMethod methods[] = {
@@ -124,9 +146,21 @@ constexpr CardMethod methods[] = {
      "Looked up in the middle of what the lobe's cone, as a square, covers of the rectangle, as wide as the cone; times the light by "
      "moments.",
      drobot},
+    {"drobot-diffuse-card", "Drobot 2014 (GPU Pro 5), eq 1.24",
+     "Of lambert: looked up in a volume over the distance, at the point that stands for the light; times its closed form.", drobot_diffuse,
+     true},
 };
 
 }  // namespace
+
+CardLookups CardMethod::lookups(const Emitter& emitter, const LightCard& card) const {
+  CardLookups made{&card, {}};
+  const PolygonEmitter* rectangle = rectangle_of(emitter);
+  if (!over_distance || rectangle == nullptr) return made;
+  const double width = length(rectangle->uv_frame[1]), height = length(rectangle->uv_frame[2]);
+  if (width > 0 && height > 0) made.over_distance.emplace(card, width, height);
+  return made;
+}
 
 std::span<const CardMethod> card_methods() { return methods; }
 
