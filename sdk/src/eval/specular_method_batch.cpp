@@ -147,55 +147,59 @@ HWY_INLINE SmallLight small_light(const PlacedTube& tube, const Vector3& positio
   }
 }
 
-// covered_strip of specular_methods.cpp.
+// covered_strip of specular_methods.cpp. What differences are made of is exact to a few roundings, the rest to 12 bits.
 HWY_INLINE Shares lit_by_strip(const PlacedTube& tube, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
   const Floats d;
-  const Lanes zero = number(0), one = number(1), half = number(0.5f), alpha2 = square(lobe.alpha);
-  const Vector3 first = lobe.frame(towards(d, tube.a, position)), second = lobe.frame(towards(d, tube.b, position));
-  // As far as something is above the horizon, and its middle there.
-  const Lanes radius = number(tube.radius), low_a = hn::Add(first.z, radius), low_b = hn::Add(second.z, radius);
-  const Lanes rise = hn::Sub(low_a, low_b), over_rise = inverse(d, hn::IfThenElse(hn::Eq(rise, zero), one, rise));
-  lit = hn::And(lit, hn::Gt(hn::Max(low_a, low_b), zero));
-  const Vector3 crossing = along(first, second - first, hn::Mul(low_a, over_rise));
-  Vector3 a = chosen(hn::Lt(low_a, zero), crossing, first), b = chosen(hn::Lt(low_b, zero), crossing, second);
-  a.z = hn::Max(a.z, hn::Mul(half, hn::Add(a.z, radius))), b.z = hn::Max(b.z, hn::Mul(half, hn::Add(b.z, radius)));
+  const Lanes zero = number(0), one = number(1), half = number(0.5f), least = number(1e-6f), alpha2 = square(lobe.alpha);
+  Vector3 a = lobe.frame(towards(d, tube.a, position)), b = lobe.frame(towards(d, tube.b, position));
+  const Lanes radius = number(tube.radius);
+  if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Ge(hn::Min(a.z, b.z), radius)))) {
+    // As far as something is above the horizon, and its middle there.
+    const Lanes low_a = hn::Add(a.z, radius), low_b = hn::Add(b.z, radius), rise = hn::Sub(low_a, low_b);
+    lit = hn::And(lit, hn::Gt(hn::Max(low_a, low_b), zero));
+    const Vector3 crossing = along(a, b - a, hn::Mul(low_a, inverse(d, hn::IfThenElse(hn::Eq(rise, zero), one, rise))));
+    a = chosen(hn::Lt(low_a, zero), crossing, a), b = chosen(hn::Lt(low_b, zero), crossing, b);
+    a.z = hn::Max(a.z, hn::Mul(half, hn::Add(a.z, radius))), b.z = hn::Max(b.z, hn::Mul(half, hn::Add(b.z, radius)));
+  }
   const Lanes over_a = inverse_length(a), over_b = inverse_length(b);
-  const Vector3 to_a = scaled(a, over_a), to_b = scaled(b, over_b), v = lobe.frame.view(), sum_a = v + to_a, sum_b = v + to_b,
-                span = to_b - to_a;
+  const Vector3 to_a = scaled(a, over_a), to_b = scaled(b, over_b), span = to_b - to_a;
+  const auto with_view = [&](const Vector3& l) ETENDUE_INLINE_LAMBDA {
+    return Vector3{hn::Add(l.x, lobe.frame.sine), l.y, hn::Add(l.z, lobe.frame.cosine)};
+  };
+  const Vector3 sum_a = with_view(to_a), sum_b = with_view(to_b);
   const Lanes per_a = inverse(d, sum_a.z), per_b = inverse(d, sum_b.z);
   const Lanes from_x = hn::Mul(sum_a.x, per_a), from_y = hn::Mul(sum_a.y, per_a);
-  const Lanes step_x = hn::MulSub(sum_b.x, per_b, from_x), step_y = hn::MulSub(sum_b.y, per_b, from_y);
-  const Lanes least = number(1e-12f), length2 = hn::Max(hn::MulAdd(step_x, step_x, hn::Mul(step_y, step_y)), least);
-  const Lanes over_length = inverse_sqrt(d, length2), x = hn::Mul(step_x, over_length), y = hn::Mul(step_y, over_length);
-  const Lanes length = hn::Mul(length2, over_length), begin = hn::MulAdd(from_x, x, hn::Mul(from_y, y)), end = hn::Add(begin, length);
-  // Where the lobe's middle is along the strip.
-  const Lanes a2 = hn::MulAdd(square(hn::MulSub(from_x, y, hn::Mul(from_y, x))), one, alpha2), a1 = hn::Sqrt(a2);
-  const auto over_both = [&](Lanes w2, Lanes s0, Lanes s1)
-                             ETENDUE_INLINE_LAMBDA { return inverse(d, hn::Mul(hn::MulAdd(s0, s0, w2), hn::MulAdd(s1, s1, w2))); };
-  const auto turned = [&](Lanes w, Lanes w2, Lanes s0, Lanes s1, Lanes over) ETENDUE_INLINE_LAMBDA {
-    const Lanes across = hn::Mul(w, hn::Sub(s1, s0)), product = hn::NegMulAdd(s0, s1, w2);
-    return hn::MulAdd(hn::Mul(across, product), over, angle_of(d, across, hn::MulAdd(s0, s1, w2)));
-  };
-  const Lanes over_ends = over_both(a2, begin, end), below = turned(a1, a2, begin, end, over_ends);
-  const Lanes squares = hn::Mul(hn::Mul(hn::Sub(end, begin), hn::Add(end, begin)), over_ends);
-  const Lanes mean = hn::Mul(hn::Mul(hn::Mul(a1, a2), squares), inverse(d, hn::Max(below, least)));
-  const Lanes close = saturate(hn::Mul(hn::Sub(mean, begin), over_length)), near = hn::Mul(close, sum_a.z);
-  const Lanes share = hn::Mul(near, inverse(d, hn::MulAdd(hn::Sub(one, close), sum_b.z, near)));
+  const Lanes step_x = hn::Add(hn::MulSub(sum_b.x, per_b, from_x), least), step_y = hn::MulSub(sum_b.y, per_b, from_y);
+  const Lanes length2 = hn::MulAdd(step_x, step_x, hn::Mul(step_y, step_y)), over_length = near_inverse_sqrt(d, length2);
+  const Lanes behind = hn::MulAdd(from_x, step_x, hn::Mul(from_y, step_y)), turn = hn::MulSub(from_x, step_y, hn::Mul(from_y, step_x));
+  // The lobe's mean on the strip.
+  const Lanes closest = hn::Min(positive(hn::Neg(behind)), length2);
+  const Lanes pull = hn::Mul(number(1.5f), hn::MulAdd(square(turn), square(over_length), alpha2));
+  const Lanes of_b = hn::Mul(hn::Add(closest, pull), sum_a.z);
+  const Lanes of_a = hn::Mul(hn::Add(hn::Sub(length2, closest), pull), sum_b.z);
+  const Lanes share = hn::Mul(of_b, rough_inverse(hn::Add(of_a, of_b)));
   const Vector3 chord = along(to_a, span, share);
   const Lanes over_chord = inverse_length(chord), over_distance = hn::Mul(hn::MulAdd(hn::Sub(over_b, over_a), share, over_a), over_chord);
-  const Vector3 l = scaled(chord, over_chord), sum = v + l;
+  const Vector3 l = scaled(chord, over_chord), sum = with_view(l);
   const Lanes total = dot(sum, sum), over_z = inverse(d, sum.z), bent = hn::Mul(total, over_z);
-  const Lanes beta = hn::Abs(hn::Mul(hn::MulSub(sum.x, y, hn::Mul(sum.y, x)), over_z));
-  const Lanes narrower = hn::Mul(hn::Sqrt(hn::Max(dot(span, span), least)), over_length);
-  const Lanes angle = hn::Mul(half, hn::Min(hn::Mul(radius, over_distance), l.z));
-  const Lanes w = hn::Mul(angle, hn::Mul(hn::Mul(bent, square(over_z)), narrower));
-  const auto across = [&](Lanes s) ETENDUE_INLINE_LAMBDA { return hn::Mul(s, inverse_sqrt(d, hn::MulAdd(s, s, alpha2))); };
-  const Lanes wider2 = hn::MulAdd(beta, beta, alpha2), longer = hn::Mul(number(static_cast<float>(pi / 4)), w);
-  const Lanes s0 = hn::Sub(begin, longer), s1 = hn::Add(end, longer);
-  const Lanes lengthwise = turned(hn::Sqrt(wider2), wider2, s0, s1, over_both(wider2, s0, s1));
-  const Lanes covered = hn::Mul(hn::Sub(across(hn::Add(beta, w)), across(hn::Sub(beta, w))), lengthwise);
+  // How slopes go with the strip's directions there.
+  const Vector3 onwards = along(span, l, hn::Neg(dot(l, span)));
+  const Lanes q_x = hn::Mul(sum.x, over_z), q_y = hn::Mul(sum.y, over_z);
+  const Lanes go_x = hn::Add(hn::NegMulAdd(q_x, onwards.z, onwards.x), least), go_y = hn::NegMulAdd(q_y, onwards.z, onwards.y);
+  const Lanes turned2 = hn::MulAdd(least, least, dot(onwards, onwards)), gone2 = hn::MulAdd(go_x, go_x, hn::Mul(go_y, go_y));
+  const Lanes over_gone = near_inverse_sqrt(d, gone2), over_both = hn::Mul(over_gone, near_inverse_sqrt(d, turned2));
+  const Lanes beta = hn::Mul(hn::MulSub(q_x, go_y, hn::Mul(q_y, go_x)), over_gone);
+  const Lanes angle = hn::Mul(hn::Mul(half, hn::Min(hn::Mul(radius, over_distance), l.z)), hn::Mul(over_z, over_both));
+  const Lanes w = hn::Mul(angle, hn::Mul(bent, turned2));
+  const Lanes longer = hn::Mul(number(static_cast<float>(pi / 2)), hn::Mul(angle, gone2));
+  const Lanes begin = hn::MulSub(behind, over_length, longer);
+  const Lanes end = hn::MulAdd(hn::Add(behind, length2), over_length, longer);
+  const auto part = [&](Lanes s, Lanes w2) ETENDUE_INLINE_LAMBDA { return hn::Mul(s, inverse_sqrt(d, hn::MulAdd(s, s, w2))); };
+  const Lanes wider2 = hn::Mul(number(static_cast<float>(pi * pi / 16)), hn::MulAdd(beta, beta, alpha2));
+  const Lanes across = hn::Sub(part(hn::Add(beta, w), alpha2), part(hn::Sub(beta, w), alpha2));
+  const Lanes lengthwise = hn::Sub(part(end, wider2), part(begin, wider2));
   const Lanes slow = hn::Min(hn::Mul(hn::Add(bent, bent), lobe.seen_area(l.z)), one);
-  return LobeLanes::split(hn::Mul(hn::Mul(covered, slow), number(static_cast<float>(0.5 / pi))), total, hn::Gt(l.z, zero));
+  return LobeLanes::split(hn::Mul(hn::Mul(across, lengthwise), hn::Mul(slow, number(0.25f))), total, hn::Gt(l.z, zero));
 }
 
 using Of = std::span<float>;

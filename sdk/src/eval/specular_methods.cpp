@@ -69,12 +69,18 @@ Rgb tube_part(const TubeView& tube, const LobeView& lobe) {
   const Vec3d centre = (tube.a + tube.b) * 0.5;
   return covered_lobe(lobe, centre, intensity_across(tube) / dot(centre, centre));
 }
-// The same of a tube as a strip about its axis, straight in the plane of slopes. With s along the strip, w half its width and beta its
-// distance from the lobe's middle, where it is closest to it, the lobe's share across it and along it, as if they were independent, are
+// The same of a tube as a strip about its axis. With s along the strip, w half its width and beta its distance from the lobe's middle, both
+// where the lobe's mean on the strip is, the lobe's share across it and along it, as if they were independent, are
 //     (x / sqrt(alpha^2 + x^2) from beta - w to beta + w) / 2,
-//     (s a / (a^2 + s^2) + atan(s / a) between its ends) / pi,   a^2 = alpha^2 + beta^2.
-// The strip covers as much as the tube's solid angle is there: w = R / distance times |v + l|^2 / (2 (v + l).z^3), over how much longer it
-// is in slopes than in directions.
+//     (s / sqrt((pi / 4)^2 a^2 + s^2) between its ends) / 2,   a^2 = alpha^2 + beta^2;
+// the latter is within .04 of (s a / (a^2 + s^2) + atan(s / a) between its ends) / pi, and alike about s = 0 and far away.
+// That mean is halfway at the closest place of a long strip, and of a short one as far from its middle as the lobe's slope along it takes
+// it: of D ~ (a^2 + s^2)^-2 over the length L about m it is m - L^2 m / (3 (a^2 + m^2)). Between both, of the strip's parameter,
+//     t = (t of the closest place L^2 + 3 / 2 a^2) / (L^2 + 3 a^2).
+// Directions' sums v + l, which slopes are quotients of, go with another parameter. The axis as seen from there is a curve of slopes: beta
+// is the distance of its tangent, and a circle of the angle R / distance about l is an ellipse, as long as the axis' step is in slopes over
+// what it is in directions, and as wide as leaves its area 4 v.h n.h^3 times smaller. Ends are half a circle farther, pi / 4 of it on
+// average.
 Rgb covered_strip(const TubeView& tube, const LobeView& lobe) {
   const Vec3d v = lobe.frame.vector(lobe.view);
   Vec3d a = lobe.frame.vector(tube.a), b = lobe.frame.vector(tube.b);
@@ -87,32 +93,29 @@ Rgb covered_strip(const TubeView& tube, const LobeView& lobe) {
   a.z = std::max(a.z, 0.5 * (a.z + tube.radius)), b.z = std::max(b.z, 0.5 * (b.z + tube.radius));
   const double over_a = 1 / length(a), over_b = 1 / length(b), alpha2 = lobe.alpha() * lobe.alpha();
   const Vec3d to_a = a * over_a, to_b = b * over_b, sum_a = v + to_a, sum_b = v + to_b, span = to_b - to_a;
-  const Vec2d from{sum_a.x / sum_a.z, sum_a.y / sum_a.z}, to{sum_b.x / sum_b.z, sum_b.y / sum_b.z}, step{to.x - from.x, to.y - from.y};
-  const double length2 = std::max(step.x * step.x + step.y * step.y, 1e-12), over_length = 1 / std::sqrt(length2);
-  const double begin = (from.x * step.x + from.y * step.y) * over_length, end = begin + length2 * over_length;
-  // Beside the strip's line, and where on it the lobe's middle is, as shares of the strip and of the directions' sums.
-  const double aside = (from.x * step.y - from.y * step.x) * over_length, a2 = alpha2 + aside * aside, a1 = std::sqrt(a2);
-  const double over_begin = 1 / (a2 + begin * begin), over_end = 1 / (a2 + end * end);
-  const double below = a1 * (end * over_end - begin * over_begin) + std::atan2(a1 * (end - begin), a2 + begin * end);
-  const double mean = a1 * a2 * (over_begin - over_end) / std::max(below, 1e-12);
-  const double close = std::clamp((mean - begin) * over_length, 0.0, 1.0);
-  const double share = close * sum_a.z / (close * sum_a.z + (1 - close) * sum_b.z);
+  const Vec2d from{sum_a.x / sum_a.z, sum_a.y / sum_a.z}, to{sum_b.x / sum_b.z, sum_b.y / sum_b.z};
+  // Seen end-on it has some direction.
+  constexpr double least = 1e-6;
+  const Vec2d step{to.x - from.x + least, to.y - from.y};
+  const double length2 = step.x * step.x + step.y * step.y, behind = from.x * step.x + from.y * step.y;
+  const double turn = from.x * step.y - from.y * step.x, pull = 1.5 * (alpha2 + turn * turn / length2);
+  const double closest = std::clamp(-behind, 0.0, length2);
+  const double of_b = (closest + pull) * sum_a.z, of_a = (length2 - closest + pull) * sum_b.z, share = of_b / (of_a + of_b);
   const Vec3d chord = to_a + span * share;
   const double over_chord = 1 / length(chord), over_distance = (over_a + (over_b - over_a) * share) * over_chord;
-  const Vec3d l = chord * over_chord, sum = v + l;
+  const Vec3d l = chord * over_chord, sum = v + l, onwards = span - l * dot(l, span);
   if (!(l.z > 0 && dot(lobe.surface_normal, lobe.frame.to_world(l)) > 0)) return {};
-  const double total = dot(sum, sum);
-  const double beta = std::abs((sum.x * step.y - sum.y * step.x) * over_length / sum.z);
-  const double narrower = std::sqrt(std::max(dot(span, span), 1e-12)) * over_length;
-  const double w = std::min(tube.radius * over_distance, l.z) * total / (2 * sum.z * sum.z * sum.z) * narrower;
-  const auto across = [&](double x) { return x / std::sqrt(alpha2 + x * x); };
-  const double wider2 = alpha2 + beta * beta, wider = std::sqrt(wider2), s0 = begin - 0.25 * pi * w, s1 = end + 0.25 * pi * w;
-  const double lengthwise =
-      (wider * (s1 / (wider2 + s1 * s1) - s0 / (wider2 + s0 * s0)) + std::atan2(wider * (s1 - s0), wider2 + s0 * s1)) / pi;
+  const Vec2d q{sum.x / sum.z, sum.y / sum.z}, go{onwards.x - q.x * onwards.z + least, onwards.y - q.y * onwards.z};
+  const double gone = std::sqrt(go.x * go.x + go.y * go.y), turned = std::sqrt(dot(onwards, onwards) + least * least);
+  const double beta = (q.x * go.y - q.y * go.x) / gone, angle = std::min(tube.radius * over_distance, l.z);
+  const double w = angle * dot(sum, sum) / (2 * sum.z * sum.z) * turned / gone, longer = 0.25 * pi * angle * gone / (turned * sum.z);
+  const double begin = behind / std::sqrt(length2) - longer, end = (behind + length2) / std::sqrt(length2) + longer;
+  const double wider2 = pi * pi / 16 * (alpha2 + beta * beta);
+  const auto part = [](double x, double a2) { return 0.5 * x / std::sqrt(a2 + x * x); };
+  const double across = part(beta + w, alpha2) - part(beta - w, alpha2), lengthwise = part(end, wider2) - part(begin, wider2);
   const HalfAngle h = half_angle(v, l);
   const double slow = 4 * h.v_dot_h / std::sqrt(h.cos2) * l.z * GgxView(lobe.alpha(), lobe.lobe.masking, v).masked(l.z);
-  return fresnel_reflectance(lobe.lobe, h.v_dot_h) *
-         (0.5 * (across(beta + w) - across(beta - w)) * std::max(lengthwise, 0.0) * std::min(slow, 1.0));
+  return fresnel_reflectance(lobe.lobe, h.v_dot_h) * (across * lengthwise * std::min(slow, 1.0));
 }
 constexpr SpecularRules strip_rules{.tube = covered_strip};
 constexpr SpecularRules covered_rules{
@@ -123,7 +126,7 @@ constexpr SpecularMethod ours[] = {
      "lobe is "
      "taken at the centre. Dark once the centre has set.",
      published<covered_rules>},
-    {"covered-strip", "Etendue", "The same of a tube as a straight strip of half vectors about its axis, cut at the horizon.",
+    {"covered-strip", "Etendue", "The same of a tube as a strip of half vectors about its axis, cut at the horizon.",
      published<strip_rules>},
     {"moments", "Etendue",
      "Exact but for the slow factor of the lobe, which is taken at four places, and for outlines in pieces; no table.", moments},
