@@ -88,7 +88,7 @@ HWY_INLINE Vector3 on_plane(const Vector3& ray, const Vector3& normal, Lanes hei
 }
 HWY_INLINE Shares lit_from(const Vector3& point, const LobeLanes& lobe, Lanes lux) {
   const Lanes cosine = hn::Mul(point.z, inverse_length(point));
-  return lobe.lit_by<false>({point, hn::Div(lux, cosine), lobe.alpha});
+  return lobe.lit_by({point, hn::Div(lux, cosine), lobe.alpha});
 }
 // The lobe's albedo, from the nodes of ltc_table().
 HWY_INLINE Shares of_albedo(const LtcNodes& nodes, const LobeLanes& lobe, Lanes share) {

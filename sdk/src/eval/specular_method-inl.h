@@ -22,6 +22,8 @@ HWY_INLINE Lanes rough_inverse(Lanes x) {
 #endif
 }
 
+HWY_INLINE Lanes near_root(Lanes x) { return hn::Mul(x, near_inverse_sqrt(Floats(), hn::Max(x, number(1e-30f)))); }
+
 // The light stands for a small one in that direction, of any length: BRDF times cosine there, D with `density_alpha`, times the factor.
 struct SmallLight {
   Vector3 direction;
@@ -29,49 +31,36 @@ struct SmallLight {
 };
 struct LobeLanes {
   ViewFrame frame;
+  Vector3 eye;
   Lanes alpha;
   Vector3 mirror() const { return {hn::Neg(frame.sine), number(0), frame.cosine}; }
-  // n.l G2 / (4 n.v n.l).
+  // n.l G2 / (4 n.v n.l); `near`: to 12 bits.
+  template <bool near>
   HWY_INLINE Lanes seen_area(Lanes z) const {
     const Lanes alpha2 = hn::Mul(alpha, alpha);
     const auto root = [&](Lanes x) ETENDUE_INLINE_LAMBDA {
-      const Lanes x2 = hn::Mul(x, x);
-      return hn::Sqrt(hn::MulAdd(alpha2, hn::Sub(number(1), x2), x2));
+      const Lanes x2 = hn::Mul(x, x), square = hn::MulAdd(alpha2, hn::Sub(number(1), x2), x2);
+      if constexpr (near) return hn::Mul(square, near_inverse_sqrt(Floats(), square));
+      return hn::Sqrt(square);
     };
-    const Lanes below = hn::MulAdd(z, root(frame.cosine), hn::Mul(frame.cosine, root(z)));
-    return hn::Mul(hn::Mul(number(0.5f), z), inverse(Floats(), below));
+    const Lanes below = hn::MulAdd(z, root(frame.cosine), hn::Mul(frame.cosine, root(z))), half = hn::Mul(number(0.5f), z);
+    if constexpr (near) return hn::Mul(half, rough_inverse(below));
+    return hn::Mul(half, inverse(Floats(), below));
   }
-  // Of a value without Fresnel's term, with `total` = |v + l|^2; nothing where it is no number.
-  HWY_INLINE static Shares split(Lanes value, Lanes total, Lit above) {
-    const Lanes zero = number(0), away = positive(hn::NegMulAdd(number(0.5f), hn::Sqrt(total), number(1))), away2 = hn::Mul(away, away);
+  // Of a value without Fresnel's term, with the length of v + l; nothing where it is no number.
+  HWY_INLINE static Shares split(Lanes value, Lanes length, Lit above) {
+    const Lanes zero = number(0), away = positive(hn::NegMulAdd(number(0.5f), length, number(1))), away2 = hn::Mul(away, away);
     const Lit lit = hn::And(above, hn::And(hn::Ge(value, zero), hn::Lt(value, number(1e30f))));
     const Lanes seen = hn::IfThenElseZero(lit, value), of_f90 = hn::Mul(seen, hn::Mul(away, hn::Mul(away2, away2)));
     return {hn::Sub(seen, of_f90), of_f90};
   }
-  // `covered`: covered_lobe of specular_methods.cpp, the factor a solid angle.
-  template <bool covered>
   HWY_INLINE Shares lit_by(const SmallLight& light) const {
-    const Floats d;
-    const Lanes zero = number(0), one = number(1), half = number(0.5f);
     const Vector3 l = unit(light.direction), sum = frame.view() + l;
     const Lanes across = hn::MulAdd(sum.x, sum.x, hn::Mul(sum.y, sum.y)), along2 = hn::Mul(sum.z, sum.z), total = hn::Add(across, along2);
-    const Lanes alpha2 = hn::Mul(alpha, alpha), seen = seen_area(l.z);
-    Lanes value;
-    if constexpr (covered) {
-      // v.h = |v + l| / 2 and n.h = (v + l).z / |v + l| leave no root. To 12 bits.
-      const Lanes over_z = rough_inverse(sum.z), over_z2 = hn::Mul(over_z, over_z), bent = hn::Mul(total, over_z);
-      const Lanes r2 = hn::Mul(hn::Mul(light.factor, number(static_cast<float>(0.5 / pi))), hn::Mul(bent, over_z2));
-      const Lanes t = hn::Sub(hn::MulAdd(across, over_z2, alpha2), r2), rest = hn::Mul(hn::Mul(number(4), alpha2), r2);
-      const Lanes length2 = hn::Max(hn::MulAdd(t, t, rest), number(1e-30f)), over_length = near_inverse_sqrt(d, length2);
-      const Lanes longer = hn::MulAdd(length2, over_length, hn::Abs(t));
-      const Lanes above = hn::IfThenElse(hn::Gt(t, zero), hn::Mul(rest, rough_inverse(longer)), longer);
-      value = hn::Mul(hn::Mul(hn::Mul(half, above), over_length), hn::Min(hn::Mul(hn::Add(bent, bent), seen), one));
-    } else {
-      const Lanes a2 = hn::Mul(light.density_alpha, light.density_alpha), wide = hn::Mul(total, inverse(d, hn::MulAdd(a2, along2, across)));
-      const Lanes density = hn::Mul(hn::Mul(a2, number(static_cast<float>(1 / pi))), hn::Mul(wide, wide));
-      value = hn::Mul(hn::Mul(density, light.factor), seen);
-    }
-    return split(value, total, hn::Gt(l.z, zero));
+    const Lanes a2 = hn::Mul(light.density_alpha, light.density_alpha),
+                wide = hn::Mul(total, inverse(Floats(), hn::MulAdd(a2, along2, across)));
+    const Lanes density = hn::Mul(hn::Mul(a2, number(static_cast<float>(1 / pi))), hn::Mul(wide, wide));
+    return split(hn::Mul(hn::Mul(density, light.factor), seen_area<false>(l.z)), hn::Sqrt(total), hn::Gt(l.z, number(0)));
   }
 };
 
@@ -142,7 +131,7 @@ HWY_INLINE std::size_t over_points_and_views(const SpecularPoints& points, std::
     const Lanes alpha = hn::LoadU(d, in[9] + i);
     const Lanes nothing = hn::Add(less_itself(position, normal), hn::Add(less_itself(view, view), hn::Sub(alpha, alpha)));
     const Lit valid = hn::Eq(nothing, number(0));
-    const LobeLanes lobe{view_frame(normal, view), hn::Min(hn::Max(alpha, number(1e-4f)), number(1))};
+    const LobeLanes lobe{view_frame(normal, view), unit(view), hn::Min(hn::Max(alpha, number(1e-4f)), number(1))};
     Lit lit = hn::Gt(lobe.frame.cosine, number(0));
     const Shares shares = light(position, lobe, lit);
     hn::StoreU(hn::IfThenElse(valid, hn::IfThenElseZero(lit, shares.of_f0), number(where_none)), d, to);

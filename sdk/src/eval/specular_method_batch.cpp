@@ -17,28 +17,21 @@
 #include <cmath>
 #include <string>
 
+#include "eval/specular_covered-inl.h"
 #include "eval/specular_method-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etendue::eval::HWY_NAMESPACE {
 namespace {
 
-// The whole of a flat light; flat_part of specular_methods.cpp.
-template <PublishedRule rule>
-HWY_INLINE SmallLight flat_light(const Vector3& centre, Lanes area, Lanes height, Lanes alpha) {
-  if constexpr (rule == PublishedRule::punctual) return small_area(centre, area, height, alpha);
-  const Floats d;
-  const Lanes distance2 = dot(centre, centre), below = hn::MulAdd(number(static_cast<float>(1 / pi)), area, distance2);
-  return {centre, hn::Mul(hn::Mul(area, height), hn::Mul(inverse_sqrt(d, distance2), inverse(d, below))), alpha};
-}
 template <PublishedRule rule>
 HWY_INLINE SmallLight small_light(const PlacedRect& rect, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
   const Floats d;
   const Vector3 centre = lobe.frame(towards(d, rect.centre, position)), normal = lobe.frame(numbers(d, rect.normal));
   const Lanes height = hn::Neg(dot(centre, normal)), half_x = number(rect.half_x), half_y = number(rect.half_y);
   lit = hn::And(lit, hn::Gt(height, number(0)));
-  if constexpr (rule == PublishedRule::punctual || rule == PublishedRule::covered_lobe) {
-    return flat_light<rule>(centre, number(4 * rect.half_x * rect.half_y), height, lobe.alpha);
+  if constexpr (rule == PublishedRule::punctual) {
+    return small_area(centre, number(4 * rect.half_x * rect.half_y), height, lobe.alpha);
   } else {
     const Vector3 x = lobe.frame(numbers(d, rect.x)), y = lobe.frame(numbers(d, rect.y)), mirror = lobe.mirror();
     const Lanes falling = hn::Neg(dot(mirror, normal)), distance = hn::Div(height, hn::Max(falling, number(1e-30f)));
@@ -60,8 +53,8 @@ HWY_INLINE SmallLight small_light(const PlacedDisk& disk, const Vector3& positio
   const Vector3 centre = lobe.frame(towards(d, disk.centre, position)), normal = lobe.frame(numbers(d, disk.normal));
   const Lanes height = hn::Neg(dot(centre, normal)), radius = number(disk.radius), round = number(static_cast<float>(pi));
   lit = hn::And(lit, hn::Gt(height, number(0)));
-  if constexpr (rule == PublishedRule::punctual || rule == PublishedRule::covered_lobe) {
-    return flat_light<rule>(centre, hn::Mul(round, square(radius)), height, lobe.alpha);
+  if constexpr (rule == PublishedRule::punctual) {
+    return small_area(centre, hn::Mul(round, square(radius)), height, lobe.alpha);
   } else {
     const Vector3 mirror = lobe.mirror();
     const Lanes falling = hn::Neg(dot(mirror, normal)), distance = hn::Div(height, hn::Max(falling, number(1e-30f)));
@@ -84,7 +77,7 @@ HWY_INLINE SmallLight small_light(const Ball& ball, const Vector3& position, con
   const Vector3 centre = lobe.frame(centre_of(ball, position));
   const Lanes radius = number(ball.radius), over = inverse_length(centre), sine = hn::Mul(radius, over);
   const Lanes facing = hn::Mul(number(static_cast<float>(pi)), square(sine)), alpha = lobe.alpha;
-  if constexpr (rule == PublishedRule::punctual || rule == PublishedRule::covered_lobe) return {centre, facing, alpha};
+  if constexpr (rule == PublishedRule::punctual) return {centre, facing, alpha};
   if constexpr (rule == PublishedRule::karis_10) return {centre, facing, widened(alpha, radius, over)};
   const Vector3 mirror = lobe.mirror();
   if constexpr (rule == PublishedRule::drobot_20) {
@@ -114,7 +107,7 @@ HWY_INLINE SmallLight small_light(const PlacedTube& tube, const Vector3& positio
   const Vector3 a = lobe.frame(towards(d, tube.a, position)), b = lobe.frame(towards(d, tube.b, position)), span = b - a;
   const Lanes radius = number(tube.radius), span2 = dot(span, span), l = hn::Sqrt(span2), alpha = lobe.alpha;
   const Lanes intensity = hn::Mul(radius, hn::MulAdd(two, l, hn::Mul(number(static_cast<float>(pi)), radius)));
-  if constexpr (rule == PublishedRule::punctual || rule == PublishedRule::covered_lobe) {
+  if constexpr (rule == PublishedRule::punctual) {
     const Vector3 centre = scaled(a + b, number(0.5f));
     return {centre, hn::Mul(intensity, inverse(d, dot(centre, centre))), alpha};
   } else {
@@ -147,68 +140,15 @@ HWY_INLINE SmallLight small_light(const PlacedTube& tube, const Vector3& positio
   }
 }
 
-// covered_strip of specular_methods.cpp. What differences are made of is exact to a few roundings, the rest to 12 bits.
-HWY_INLINE Shares lit_by_strip(const PlacedTube& tube, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
-  const Floats d;
-  const Lanes zero = number(0), one = number(1), half = number(0.5f), least = number(1e-6f), alpha2 = square(lobe.alpha);
-  Vector3 a = lobe.frame(towards(d, tube.a, position)), b = lobe.frame(towards(d, tube.b, position));
-  const Lanes radius = number(tube.radius);
-  if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Ge(hn::Min(a.z, b.z), radius)))) {
-    // As far as something is above the horizon, and its middle there.
-    const Lanes low_a = hn::Add(a.z, radius), low_b = hn::Add(b.z, radius), rise = hn::Sub(low_a, low_b);
-    lit = hn::And(lit, hn::Gt(hn::Max(low_a, low_b), zero));
-    const Vector3 crossing = along(a, b - a, hn::Mul(low_a, inverse(d, hn::IfThenElse(hn::Eq(rise, zero), one, rise))));
-    a = chosen(hn::Lt(low_a, zero), crossing, a), b = chosen(hn::Lt(low_b, zero), crossing, b);
-    a.z = hn::Max(a.z, hn::Mul(half, hn::Add(a.z, radius))), b.z = hn::Max(b.z, hn::Mul(half, hn::Add(b.z, radius)));
-  }
-  const Lanes over_a = inverse_length(a), over_b = inverse_length(b);
-  const Vector3 to_a = scaled(a, over_a), to_b = scaled(b, over_b), span = to_b - to_a;
-  const auto with_view = [&](const Vector3& l) ETENDUE_INLINE_LAMBDA {
-    return Vector3{hn::Add(l.x, lobe.frame.sine), l.y, hn::Add(l.z, lobe.frame.cosine)};
-  };
-  const Vector3 sum_a = with_view(to_a), sum_b = with_view(to_b);
-  const Lanes per_a = inverse(d, sum_a.z), per_b = inverse(d, sum_b.z);
-  const Lanes from_x = hn::Mul(sum_a.x, per_a), from_y = hn::Mul(sum_a.y, per_a);
-  const Lanes step_x = hn::Add(hn::MulSub(sum_b.x, per_b, from_x), least), step_y = hn::MulSub(sum_b.y, per_b, from_y);
-  const Lanes length2 = hn::MulAdd(step_x, step_x, hn::Mul(step_y, step_y)), over_length = near_inverse_sqrt(d, length2);
-  const Lanes behind = hn::MulAdd(from_x, step_x, hn::Mul(from_y, step_y)), turn = hn::MulSub(from_x, step_y, hn::Mul(from_y, step_x));
-  // The lobe's mean on the strip.
-  const Lanes closest = hn::Min(positive(hn::Neg(behind)), length2);
-  const Lanes pull = hn::Mul(number(1.5f), hn::MulAdd(square(turn), square(over_length), alpha2));
-  const Lanes of_b = hn::Mul(hn::Add(closest, pull), sum_a.z);
-  const Lanes of_a = hn::Mul(hn::Add(hn::Sub(length2, closest), pull), sum_b.z);
-  const Lanes share = hn::Mul(of_b, rough_inverse(hn::Add(of_a, of_b)));
-  const Vector3 chord = along(to_a, span, share);
-  const Lanes over_chord = inverse_length(chord), over_distance = hn::Mul(hn::MulAdd(hn::Sub(over_b, over_a), share, over_a), over_chord);
-  const Vector3 l = scaled(chord, over_chord), sum = with_view(l);
-  const Lanes total = dot(sum, sum), over_z = inverse(d, sum.z), bent = hn::Mul(total, over_z);
-  // How slopes go with the strip's directions there.
-  const Vector3 onwards = along(span, l, hn::Neg(dot(l, span)));
-  const Lanes q_x = hn::Mul(sum.x, over_z), q_y = hn::Mul(sum.y, over_z);
-  const Lanes go_x = hn::Add(hn::NegMulAdd(q_x, onwards.z, onwards.x), least), go_y = hn::NegMulAdd(q_y, onwards.z, onwards.y);
-  const Lanes turned2 = hn::MulAdd(least, least, dot(onwards, onwards)), gone2 = hn::MulAdd(go_x, go_x, hn::Mul(go_y, go_y));
-  const Lanes over_gone = near_inverse_sqrt(d, gone2), over_both = hn::Mul(over_gone, near_inverse_sqrt(d, turned2));
-  const Lanes beta = hn::Mul(hn::MulSub(q_x, go_y, hn::Mul(q_y, go_x)), over_gone);
-  const Lanes angle = hn::Mul(hn::Mul(half, hn::Min(hn::Mul(radius, over_distance), l.z)), hn::Mul(over_z, over_both));
-  const Lanes w = hn::Mul(angle, hn::Mul(bent, turned2));
-  const Lanes longer = hn::Mul(number(static_cast<float>(pi / 2)), hn::Mul(angle, gone2));
-  const Lanes begin = hn::MulSub(behind, over_length, longer);
-  const Lanes end = hn::MulAdd(hn::Add(behind, length2), over_length, longer);
-  const auto part = [&](Lanes s, Lanes w2) ETENDUE_INLINE_LAMBDA { return hn::Mul(s, inverse_sqrt(d, hn::MulAdd(s, s, w2))); };
-  const Lanes wider2 = hn::Mul(number(static_cast<float>(pi * pi / 16)), hn::MulAdd(beta, beta, alpha2));
-  const Lanes across = hn::Sub(part(hn::Add(beta, w), alpha2), part(hn::Sub(beta, w), alpha2));
-  const Lanes lengthwise = hn::Sub(part(end, wider2), part(begin, wider2));
-  const Lanes slow = hn::Min(hn::Mul(hn::Add(bent, bent), lobe.seen_area(l.z)), one);
-  return LobeLanes::split(hn::Mul(hn::Mul(across, lengthwise), hn::Mul(slow, number(0.25f))), total, hn::Gt(l.z, zero));
-}
-
 using Of = std::span<float>;
 template <PublishedRule rule, class Placed>
 HWY_INLINE Shares shares_by(const Placed& light, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
   if constexpr (rule == PublishedRule::covered_strip)
-    return lit_by_strip(light, position, lobe, lit);
+    return lit_by_strip(lobe, strip_of(light, position, lobe, lit));
+  else if constexpr (rule == PublishedRule::covered_lobe)
+    return lit_by_disk(lobe, covered_part(light, position, lit));
   else
-    return lobe.template lit_by<rule == PublishedRule::covered_lobe>(small_light<rule>(light, position, lobe, lit));
+    return lobe.lit_by(small_light<rule>(light, position, lobe, lit));
 }
 // By that of the rules which `rule` is.
 template <PublishedRule... rules, class Placed>

@@ -94,19 +94,18 @@ Rgb covered_strip(const TubeView& tube, const LobeView& lobe) {
   const double over_a = 1 / length(a), over_b = 1 / length(b), alpha2 = lobe.alpha() * lobe.alpha();
   const Vec3d to_a = a * over_a, to_b = b * over_b, sum_a = v + to_a, sum_b = v + to_b, span = to_b - to_a;
   const Vec2d from{sum_a.x / sum_a.z, sum_a.y / sum_a.z}, to{sum_b.x / sum_b.z, sum_b.y / sum_b.z};
-  // Seen end-on it has some direction.
+  // Seen end-on its direction is the slope's.
   constexpr double least = 1e-6;
-  const Vec2d step{to.x - from.x + least, to.y - from.y};
-  const double length2 = step.x * step.x + step.y * step.y, behind = from.x * step.x + from.y * step.y;
-  const double turn = from.x * step.y - from.y * step.x, pull = 1.5 * (alpha2 + turn * turn / length2);
-  const double closest = std::clamp(-behind, 0.0, length2);
+  const Vec2d step{to.x - from.x + least * from.x, to.y - from.y + least * from.y};
+  const double length2 = step.x * step.x + step.y * step.y + 1e-20, behind = from.x * step.x + from.y * step.y;
+  const double pull = 1.5 * alpha2, closest = std::clamp(-behind, 0.0, length2);
   const double of_b = (closest + pull) * sum_a.z, of_a = (length2 - closest + pull) * sum_b.z, share = of_b / (of_a + of_b);
   const Vec3d chord = to_a + span * share;
   const double over_chord = 1 / length(chord), over_distance = (over_a + (over_b - over_a) * share) * over_chord;
   const Vec3d l = chord * over_chord, sum = v + l, onwards = span - l * dot(l, span);
   if (!(l.z > 0 && dot(lobe.surface_normal, lobe.frame.to_world(l)) > 0)) return {};
-  const Vec2d q{sum.x / sum.z, sum.y / sum.z}, go{onwards.x - q.x * onwards.z + least, onwards.y - q.y * onwards.z};
-  const double gone = std::sqrt(go.x * go.x + go.y * go.y), turned = std::sqrt(dot(onwards, onwards) + least * least);
+  const Vec2d q{sum.x / sum.z, sum.y / sum.z}, go{onwards.x - q.x * onwards.z, onwards.y - q.y * onwards.z};
+  const double gone = std::sqrt(go.x * go.x + go.y * go.y + least * least), turned = std::sqrt(dot(onwards, onwards) + least * least);
   const double beta = (q.x * go.y - q.y * go.x) / gone, angle = std::min(tube.radius * over_distance, l.z);
   const double w = angle * dot(sum, sum) / (2 * sum.z * sum.z) * turned / gone, longer = 0.25 * pi * angle * gone / (turned * sum.z);
   const double begin = behind / std::sqrt(length2) - longer, end = (behind + length2) / std::sqrt(length2) + longer;
@@ -115,7 +114,7 @@ Rgb covered_strip(const TubeView& tube, const LobeView& lobe) {
   const double across = part(beta + w, alpha2) - part(beta - w, alpha2), lengthwise = part(end, wider2) - part(begin, wider2);
   const HalfAngle h = half_angle(v, l);
   const double slow = 4 * h.v_dot_h / std::sqrt(h.cos2) * l.z * GgxView(lobe.alpha(), lobe.lobe.masking, v).masked(l.z);
-  return fresnel_reflectance(lobe.lobe, h.v_dot_h) * (across * lengthwise * std::min(slow, 1.0));
+  return fresnel_reflectance(lobe.lobe, h.v_dot_h) * (std::max(across * lengthwise, 0.0) * std::min(slow, 1.0));
 }
 constexpr SpecularRules strip_rules{.tube = covered_strip};
 constexpr SpecularRules covered_rules{
