@@ -23,7 +23,7 @@ Light with_luminance(Shape shape, double luminance, const Transform& transform) 
 }
 Transform facing_down(const Vec3d& position) { return {{Vec3d{1, 0, 0}, Vec3d{0, 0, -1}, Vec3d{0, 1, 0}}, position}; }
 
-// Rectangles in cells, a far one and a far sphere by a few places, a near sphere one by one. Nothing stands in their way.
+// A rectangle and a sphere in cells, a far one of each by a few places, a disk one by one. Nothing stands in their way.
 TEST(RenderPlan, PicturesKeepTheTolerance) {
   Scene scene;
   Object floor;
@@ -35,7 +35,8 @@ TEST(RenderPlan, PicturesKeepTheTolerance) {
   scene.lights = {with_luminance(RectShape{1.2, 0.6}, 900, facing_down({0, 1.4, -1})),
                   with_luminance(RectShape{0.2, 0.1}, 5e4, facing_down({-1, 8, -9})),
                   with_luminance(SphereShape{0.1}, 4e4, facing_down({3, 6, -8})),
-                  with_luminance(SphereShape{0.3}, 500, facing_down({-0.4, 0.9, -1}))};
+                  with_luminance(SphereShape{0.3}, 500, facing_down({-0.4, 0.9, -1})),
+                  with_luminance(DiskShape{0.25}, 400, facing_down({0.9, 0.8, -0.6}))};
   for (Light& light : scene.lights) light.visible = false;
   RenderOptions options;
   options.width = options.height = 20;
@@ -47,7 +48,7 @@ TEST(RenderPlan, PicturesKeepTheTolerance) {
     scene.materials[0].model = model;
     const Result<Rendered> out = render(scene, options);
     ASSERT_TRUE(out) << out.error().text;
-    const std::array<std::uint32_t, 4> all{0, 1, 2, 3};
+    const std::array<std::uint32_t, 5> all{0, 1, 2, 3, 4};
     const auto emitters = emitters_of(scene, all);
     ASSERT_TRUE(emitters);
     const eval::Brdf brdf = std::visit(

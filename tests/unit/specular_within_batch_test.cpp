@@ -1,4 +1,4 @@
-// Specular light of rectangles to a tolerance in vectors against specular_luminance, which is asked for a thirtieth of it.
+// Specular light to a tolerance in vectors against specular_luminance, which is asked for a thirtieth of it.
 #include "etendue/specular_within_batch.h"
 
 #include <gtest/gtest.h>
@@ -63,33 +63,108 @@ Views views_around(const Emitter& light, Random& random, int count) {
   return views;
 }
 
-TEST(SpecularWithinBatch, KeepsTheTolerance) {
+Emitter sun(const Vec3d& towards, double radius_rad) {
+  const double sine = std::sin(radius_rad);
+  Emitter light;
+  light.shape = DistantEmitter{normalised(towards), Rgb{1, 1, 1} * (pi * sine * sine), radius_rad};
+  return light;
+}
+PolygonEmitter triangle() {
+  PolygonEmitter p = rectangle({0.3, -0.2, 0.1}, {0.6, 0, 0.8}, {0, 1, 0}, 1.3, 0.7);
+  p.vertices.pop_back(), p.triangles = {{0, 1, 2}};
+  return p;
+}
+
+void keeps_the_tolerance(const Emitter& light, double tolerance, int count) {
+  Random random(5);
+  const Views views = views_around(light, random, count);
+  for (const double f0 : {1.0, 0.04}) {
+    std::vector<Estimate> truth;
+    for (std::size_t i = 0; i < views.size(); ++i) truth.push_back(*specular_luminance(light, views.point(i, f0), tolerance / 30));
+    on_each_instruction_set([&] {
+      Answers found(views.size());
+      const auto batch = SpecularWithinBatch::of(light, tolerance);
+      ASSERT_TRUE(batch);
+      ASSERT_TRUE(batch->shares(views.points(), found.to(), -1));
+      for (std::size_t i = 0; i < views.size(); ++i) {
+        const ShadingPoint point = views.point(i, f0);
+        const double floor = 1e-3 * lux_at(light, point.position, point.normal), expected = truth[i].value.x;
+        const double allowed = tolerance * std::max(expected, floor);
+        // A float's own rounding stands beside a tolerance of 1e-4.
+        EXPECT_NEAR(found.value(i, f0), expected, allowed + truth[i].error.x + 3e-7 * expected)
+            << i << " asked " << tolerance << " alpha " << views.alpha[i] << " n.v " << dot(point.view, point.normal);
+        EXPECT_LE(std::abs(found.value(i, f0) - expected), found.bound(i, f0) + truth[i].error.x + 3e-7 * expected) << i;
+        // Linear in f0 it is up to twice what is allowed, and a quarter of that is told of the value and of the floor.
+        EXPECT_LE(found.bound(i, f0), 2.3 * allowed + 1e-12) << i;
+      }
+    });
+  }
+}
+
+TEST(SpecularWithinBatch, RectanglesKeepTheTolerance) {
   for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
     for (const bool two_sided : {false, true}) {
-      Random random(5);
       Emitter light = white(rectangle({0.3, -0.2, 0.1}, {0.6, 0, 0.8}, {0, 1, 0}, 1.3, 0.7));
       light.two_sided = two_sided;
-      const Views views = views_around(light, random, 500);
-      for (const double f0 : {1.0, 0.04}) {
-        std::vector<Estimate> truth;
-        for (std::size_t i = 0; i < views.size(); ++i) truth.push_back(*specular_luminance(light, views.point(i, f0), tolerance / 30));
-        on_each_instruction_set([&] {
-          Answers found(views.size());
-          ASSERT_TRUE(SpecularWithinBatch::of(light, tolerance)->shares(views.points(), found.to(), -1));
-          for (std::size_t i = 0; i < views.size(); ++i) {
-            const ShadingPoint point = views.point(i, f0);
-            const double floor = 1e-3 * lux_at(light, point.position, point.normal), expected = truth[i].value.x;
-            const double allowed = tolerance * std::max(expected, floor);
-            // A float's own rounding stands beside a tolerance of 1e-4.
-            EXPECT_NEAR(found.value(i, f0), expected, allowed + truth[i].error.x + 3e-7 * expected)
-                << i << " asked " << tolerance << " alpha " << views.alpha[i] << " n.v " << dot(point.view, point.normal);
-            EXPECT_LE(std::abs(found.value(i, f0) - expected), found.bound(i, f0) + truth[i].error.x + 3e-7 * expected) << i;
-            // Linear in f0 it is up to twice what is allowed, and a quarter of that is told of the value and of the floor.
-            EXPECT_LE(found.bound(i, f0), 2.3 * allowed + 1e-12) << i;
-          }
-        });
-      }
+      keeps_the_tolerance(light, tolerance, 500);
     }
+  }
+}
+
+// Convex ones and stars, of which the horizon leaves up to five parts: four in cells.
+TEST(SpecularWithinBatch, PolygonsKeepTheTolerance) {
+  for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+    keeps_the_tolerance(white(triangle()), tolerance, 200);
+    for (const std::uint32_t spikes : {3u, 5u}) {
+      Emitter light = white(star({0.3, -0.2, 0.1}, {0.6, 0, 0.8}, {0, 1, 0}, 1.3, 0.9, spikes, 0.4));
+      light.two_sided = spikes == 5;
+      keeps_the_tolerance(light, tolerance, 200);
+    }
+  }
+}
+
+TEST(SpecularWithinBatch, RoundLightsKeepTheTolerance) {
+  for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+    keeps_the_tolerance(white(SphereEmitter{{0.3, -0.2, 0.1}, 0.45}), tolerance, 300);
+    keeps_the_tolerance(sun({0.3, 0.2, 0.5}, 0.05), tolerance, 150);
+    keeps_the_tolerance(sun({0.3, 0.2, 0.5}, 0.0046), tolerance, 150);
+  }
+}
+
+// So many sides that the lists hold the cells of a few points: a disk but for 2 pi^2 / (3 n^2) of its area, 3e-5.
+TEST(SpecularWithinBatch, ManySidesAreADisk) {
+  constexpr std::uint32_t half_of_corners = 240;
+  const Emitter light = white(star({}, {1, 0, 0}, {0, 1, 0}, 1, 1, half_of_corners, 1));
+  const Emitter disk = white(DiskEmitter{{}, {0, 0, 1}, {1, 0, 0}, 0.5});
+  Views views;
+  for (int i = 0; i < 12; ++i) {
+    const Vec3d position{0.1 * i - 0.5, 0.2, 0.7};
+    views.add(position, {0, 0, -1}, normalised(Vec3d{0.4, 0.1 * i - 0.6, -0.5}), 0.1 + 0.05 * i);
+  }
+  Answers found(views.size());
+  ASSERT_TRUE(SpecularWithinBatch::of(light, 1e-3)->shares(views.points(), found.to(), -1));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const double expected = specular_luminance(disk, views.point(i, 1), 1e-6)->value.x;
+    EXPECT_NEAR(found.value(i, 1), expected, 1.2e-3 * expected) << i;
+  }
+}
+
+// Inside a sphere there is nothing to see, unless it emits there too: then it is all of the sky.
+TEST(SpecularWithinBatch, WithinASphere) {
+  Emitter light = white(SphereEmitter{{0, 0, 0.1}, 1});
+  Views views;
+  for (const double z : {-0.5, 0.0, 0.9}) views.add({0.1, 0, z}, {0, 0, 1}, normalised(Vec3d{0.3, 0, 1}), 0.4);
+  for (const bool two_sided : {false, true}) {
+    light.two_sided = two_sided;
+    on_each_instruction_set([&] {
+      Answers found(views.size());
+      ASSERT_TRUE(SpecularWithinBatch::of(light, 1e-3)->shares(views.points(), found.to(), -1));
+      for (std::size_t i = 0; i < views.size(); ++i) {
+        const double expected = specular_luminance(light, views.point(i, 1), 1e-5)->value.x;
+        EXPECT_EQ(expected > 0, two_sided);
+        EXPECT_NEAR(found.value(i, 1), expected, 1e-3 * expected) << i;
+      }
+    });
   }
 }
 
@@ -124,7 +199,8 @@ TEST(SpecularWithinBatch, SaysWhatItDoesNotTake) {
   EXPECT_EQ(SpecularWithinBatch::of(light, 1e-5).error().code, "TOLERANCE_OUT_OF_RANGE");
   EXPECT_EQ(SpecularWithinBatch::of(light, 0.2).error().code, "TOLERANCE_OUT_OF_RANGE");
   EXPECT_EQ(SpecularWithinBatch::of(light, std::numeric_limits<double>::quiet_NaN()).error().code, "TOLERANCE_OUT_OF_RANGE");
-  EXPECT_EQ(SpecularWithinBatch::of(white(SphereEmitter{{0, 0, 1}, 0.3}), 1e-3).error().code, "METHOD_SHAPE");
+  EXPECT_EQ(SpecularWithinBatch::of(white(DiskEmitter{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, 0.3}), 1e-3).error().code, "METHOD_SHAPE");
+  EXPECT_EQ(SpecularWithinBatch::of(sun({0, 0, 1}, 0), 1e-3).error().code, "METHOD_SHAPE");
   EXPECT_EQ(SpecularWithinBatch::of(light, 1e-3, Masking::schlick_direct).error().code, "METHOD_LOBE");
   Emitter windowed = light;
   windowed.window = {Falloff::gltf, 3};

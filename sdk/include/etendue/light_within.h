@@ -26,7 +26,7 @@ struct LightWithin {
 //   adaptive   GGX under area lights: specular_luminance
 //   two lobes  Standard, MetalRough and TwoColour under area lights: half the tolerance for each lobe, GGX as above and `reference` of the
 //              diffuse one alone, which has no peak
-//   cells      either, with GGX in vectors (specular_within_batch.h): rectangles, many points, from 1e-4 (two lobes: 2e-4) on
+//   cells      either, with GGX in vectors (specular_within_batch.h): polygons, spheres, suns, many points, from 1e-4 (two lobes: 2e-4) on
 //   reference  all else
 // No approximation with a fixed error is among them: `moments` is further off than .1 in a sixth of the configurations of
 // tests/acceptance/specular --only adaptive, the transformed cosines in a quarter.

@@ -1,4 +1,4 @@
-// The specular light of one rectangle at many points to an asked tolerance, on the best instruction set that the machine has:
+// The specular light of one polygon, sphere or sun at many points to an asked tolerance, on the best instruction set that the machine has:
 // round GGX with Schlick's Fresnel, the integral of specular_light.h with its cells in vectors.
 //   const Result<SpecularWithinBatch> batch = SpecularWithinBatch::of(emitter, 1e-3);
 //   BatchOutcome done = batch->shares({points, vx, vy, vz, alpha}, {of_f0, of_f90, bound_f0, bound_f90}, 0);
@@ -27,11 +27,12 @@ class SpecularWithinBatch {
 
   // |error| <= tolerance max(value, 1e-3 E L, least) as for specular_luminance, wherever f0 is least_f0 f90 or more and no more than f90;
   // `least` in cd/m2. Masking is correlated or separable.
-  // Errors: METHOD_SHAPE: no uniform rectangle without a window; METHOD_LOBE: other masking; TOLERANCE_OUT_OF_RANGE.
+  // Errors: METHOD_SHAPE: no uniform polygon, sphere or sun without a window; METHOD_LOBE: other masking; TOLERANCE_OUT_OF_RANGE.
   static Result<SpecularWithinBatch> of(const Emitter& emitter, double tolerance, Masking masking = Masking::correlated, double least = 0);
 
-  // Points that the light is far from take a few places of it (far_luminance.h), most others cells of floats; where a float has too few
-  // digits or the cells do not get there, specular_luminance in double is asked for the tolerance. Bounds are estimates, as those of
+  // Points that a rectangle is far from take a few places of it (far_luminance.h), most others cells of floats; where a float has too few
+  // digits, of a concave polygon the horizon leaves more than four parts, or the cells do not get there, specular_luminance in double is
+  // asked for the tolerance. Bounds are estimates, as those of
   // specular_luminance are; tests/acceptance/specular --only adaptive counts how many answers keep them. Points with a number that is not
   // finite become `where_none`, and are counted. Errors: BATCH_SIZES_DIFFER.
   BatchOutcome shares(const SpecularPoints& points, const BoundedShares& to, float where_none) const;

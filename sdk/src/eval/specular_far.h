@@ -9,6 +9,14 @@
 
 namespace etendue::eval {
 
+// Relative to the origin of the points.
+struct FarRectangle {
+  std::array<Vec3d, 4> corners;  // counter-clockwise about the directions between them, as seen from the front
+  Vec3d normal;
+  bool two_sided;
+  bool separable;  // masking; else height-correlated
+};
+
 // How far away a side has to be for each order to keep half of a tolerance.
 struct FarOrders {
   explicit FarOrders(double tolerance);
@@ -27,6 +35,6 @@ struct FarOrders {
 struct FarShares {
   std::array<double, points_at_once> of_f0, of_f90, bound;
 };
-void far_shares(const RectWithin& light, const PlaceBlock& places, std::size_t count, const FarOrders& orders, FarShares& to);
+void far_shares(const FarRectangle& light, const PlaceBlock& places, std::size_t count, const FarOrders& orders, FarShares& to);
 
 }  // namespace etendue::eval

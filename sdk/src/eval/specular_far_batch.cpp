@@ -20,7 +20,7 @@ namespace etendue::eval {
 
 // The rectangle relative to the origin of the points.
 struct FarRect {
-  explicit FarRect(const RectWithin& light)
+  explicit FarRect(const FarRectangle& light)
       : centre((light.corners[0] + light.corners[2]) * 0.5),
         half_x((light.corners[3] - light.corners[0]) * 0.5),
         half_y((light.corners[1] - light.corners[0]) * 0.5),
@@ -134,7 +134,7 @@ HWY_NOINLINE void Places(const FarRect& light, const std::array<const double*, 1
   hn::StoreU(hn::Mul(scale, sum_risen), d, risen);
 }
 
-void Far(const RectWithin& rect, const PlaceBlock& places, std::size_t count, const FarOrders& orders, FarShares& to) {
+void Far(const FarRectangle& rect, const PlaceBlock& places, std::size_t count, const FarOrders& orders, FarShares& to) {
   const FarRect light(rect);
   Column size_x, size_y, rounding;
   Sizes(light, places, count, size_x, size_y, rounding);
@@ -190,7 +190,7 @@ FarOrders::FarOrders(double asked) : tolerance(asked) {
 
 HWY_EXPORT(Far);
 
-void far_shares(const RectWithin& light, const PlaceBlock& places, std::size_t count, const FarOrders& orders, FarShares& to) {
+void far_shares(const FarRectangle& light, const PlaceBlock& places, std::size_t count, const FarOrders& orders, FarShares& to) {
   HWY_DYNAMIC_DISPATCH(Far)(light, places, count, orders, to);
 }
 

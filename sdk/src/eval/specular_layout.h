@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace etendue::eval {
 
@@ -13,23 +14,29 @@ namespace etendue::eval {
 // n.l at both ends and how it rises from there, along all of the side.
 struct SideEnds {
   enum { low, rim, height_begin, slope_begin, height_end, slope_end, numbers };
-  std::array<std::array<float, most_sides * points_at_once>, numbers> side;
+  std::array<std::vector<float>, numbers> side;
 };
-// `negligible`: part of the light that no cell is laid out for.
-void find_ends(const SideBlock& block, float negligible, SideEnds& ends);
+// Of the first `count` points. `negligible`: part of the light that no cell is laid out for.
+void find_ends(const SideBlock& block, std::size_t count, float negligible, SideEnds& ends);
 
-// Parts of sides: those of a block, which are at most 23 a side.
+// Parts of sides: those of a block.
 struct PartList {
-  static constexpr std::size_t most = 23 * most_sides * points_at_once, longest_vector = 16;
+  static constexpr std::size_t most = 8192, longest_vector = 16;
   std::array<std::int32_t, most + longest_vector> point, side;  // indices into SideBlock
-  std::array<float, most + longest_vector> x0, x1;
-  // What is found: p on the outline in the middle; the largest n.l of both ends and the middle; n.l at the outer end of the ray that rises
-  // most steeply inwards, and how, per part of the ray (0: none rises).
-  std::array<float, most + longest_vector> p, highest, low, slope;
+  std::array<float, most + longest_vector> origin, x0, x1;      // SpanOfX
+  // What is found: 1 - p on the outline in the middle; the largest n.l of both ends and the middle; n.l at the outer end of the ray that
+  // rises most steeply inwards, and how, per part of the ray (0: none rises).
+  std::array<float, most + longest_vector> u, highest, low, slope;
   std::size_t count = 0;
+  bool full = false;  // and parts are missing
 
-  void add(std::int32_t at_point, std::int32_t at_side, float from, float to) {
-    point[count] = at_point, side[count] = at_side, x0[count] = from, x1[count] = to;
+  void clear() { count = 0, full = false; }
+  void add(std::int32_t at_point, std::int32_t at_side, const SpanOfX& x) {
+    if (count == most) {
+      full = true;
+      return;
+    }
+    point[count] = at_point, side[count] = at_side, origin[count] = x.origin, x0[count] = x.from, x1[count] = x.to;
     ++count;
   }
 };

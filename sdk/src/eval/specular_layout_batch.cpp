@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "eval/light_batch-inl.h"
 
@@ -21,24 +22,25 @@ HWY_INLINE Numbers constant(float x) { return hn::Set(Floats(), x); }
 
 // What is asked of a quadratic's three coefficients at tau.
 HWY_INLINE Numbers quadratic(Numbers c0, Numbers c1, Numbers c2, Numbers tau) { return hn::MulAdd(tau, hn::MulAdd(tau, c2, c1), c0); }
-HWY_INLINE Numbers tau_of(Numbers kappa, Numbers x) {
-  const Numbers one = constant(1);
-  return hn::Div(hn::Mul(kappa, x), hn::Mul(hn::Sub(one, x), hn::Add(one, x)));
+HWY_INLINE Numbers tau_of(Numbers kappa, Numbers origin, Numbers x) {
+  const Numbers one = constant(1), to_end = hn::Sub(hn::Sub(one, origin), x), to_begin = hn::Add(hn::Add(one, origin), x);
+  return hn::Div(hn::Mul(kappa, hn::Add(origin, x)), hn::Mul(to_end, to_begin));
 }
 // n.l on the outline: h' is v + l there, but for its length, 1 + tau^2.
 HWY_INLINE Numbers height_on_outline(Numbers z, Numbers view_z, Numbers tau) {
   return hn::Sub(hn::Div(z, hn::MulAdd(tau, tau, constant(1))), view_z);
 }
 
-void FindEnds(const SideBlock& block, float negligible, SideEnds& ends) {
+void FindEnds(const SideBlock& block, std::size_t count, float negligible, SideEnds& ends) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
   const Numbers one = constant(1), zero = hn::Zero(d), least = constant(std::sqrt(negligible)), step = constant(1e-2f);
-  for (std::size_t i = 0; i < points_at_once; i += lanes) {
+  for (std::vector<float>& numbers : ends.side) numbers.resize(block.sides * points_at_once);
+  for (std::size_t i = 0; i < count; i += lanes) {
     const auto of_point = [&](SideBlock::OfPoint k) ETENDUE_INLINE_LAMBDA { return hn::LoadU(d, block.point[k].data() + i); };
     const Numbers alpha = of_point(SideBlock::alpha), view_z = of_point(SideBlock::view_z), rest = of_point(SideBlock::rest);
     const Numbers layer = hn::Min(alpha, view_z), reach = hn::Max(hn::Add(layer, layer), least);
-    for (std::size_t s = 0; s < most_sides; ++s) {
+    for (std::size_t s = 0; s < block.sides; ++s) {
       const std::size_t at = s * points_at_once + i;
       const auto of_side = [&](SideBlock::OfSide k) ETENDUE_INLINE_LAMBDA { return hn::LoadU(d, block.side[k].data() + at); };
       const Numbers z0 = of_side(SideBlock::z0), z1 = of_side(SideBlock::z1), z2 = of_side(SideBlock::z2), rim = of_side(SideBlock::rim);
@@ -46,8 +48,7 @@ void FindEnds(const SideBlock& block, float negligible, SideEnds& ends) {
       keep(SideEnds::low, hn::IfThenZeroElse(hn::Gt(of_side(SideBlock::lowest), reach), one));
       const Numbers nearest = hn::Mul(constant(5), hn::Max(rim, hn::Mul(constant(0.1f), alpha)));
       keep(SideEnds::rim, hn::IfThenElseZero(hn::And(hn::Gt(alpha, hn::Mul(constant(0.05f), rim)), hn::Gt(rest, nearest)), one));
-      const Numbers kappa = of_side(SideBlock::kappa);
-      const Numbers begin = tau_of(kappa, of_side(SideBlock::begin)), end = tau_of(kappa, of_side(SideBlock::end));
+      const Numbers begin = of_side(SideBlock::begin), end = of_side(SideBlock::end);
       const auto height = [&](Numbers tau) ETENDUE_INLINE_LAMBDA { return height_on_outline(quadratic(z0, z1, z2, tau), view_z, tau); };
       const auto rise = [&](Numbers from, Numbers to, std::size_t low, std::size_t slope) ETENDUE_INLINE_LAMBDA {
         const Numbers here = hn::Max(height(from), zero);
@@ -64,7 +65,8 @@ void FindRays(const SideBlock& block, PartList& parts) {
   const hn::RebindToSigned<Floats> di;
   const std::size_t lanes = hn::Lanes(d);
   const Numbers one = constant(1), zero = hn::Zero(d), two = constant(2);
-  for (std::size_t k = parts.count; k < parts.count + lanes; ++k) parts.point[k] = parts.side[k] = 0, parts.x0[k] = parts.x1[k] = 0;
+  for (std::size_t k = parts.count; k < parts.count + lanes; ++k)
+    parts.point[k] = parts.side[k] = 0, parts.origin[k] = parts.x0[k] = parts.x1[k] = 0;
   for (std::size_t i = 0; i < parts.count; i += lanes) {
     const auto at_point = hn::LoadU(di, parts.point.data() + i), at_side = hn::LoadU(di, parts.side.data() + i);
     const auto of_point = [&](SideBlock::OfPoint k) ETENDUE_INLINE_LAMBDA { return hn::GatherIndex(d, block.point[k].data(), at_point); };
@@ -72,27 +74,30 @@ void FindRays(const SideBlock& block, PartList& parts) {
     const Numbers hx0 = of_side(SideBlock::x0), hx1 = of_side(SideBlock::x1), hx2 = of_side(SideBlock::x2);
     const Numbers hy0 = of_side(SideBlock::y0), hy1 = of_side(SideBlock::y1), hy2 = of_side(SideBlock::y2);
     const Numbers hz0 = of_side(SideBlock::z0), hz1 = of_side(SideBlock::z1), hz2 = of_side(SideBlock::z2);
-    const Numbers kappa = of_side(SideBlock::kappa), alpha = of_point(SideBlock::alpha), base = of_point(SideBlock::base);
+    const Numbers kappa = of_side(SideBlock::kappa), alpha = of_point(SideBlock::alpha), rest = of_point(SideBlock::rest);
     const Numbers view_x = of_point(SideBlock::view_x), view_z = of_point(SideBlock::view_z);
+    const Numbers origin = hn::LoadU(d, parts.origin.data() + i);
     const Numbers x0 = hn::LoadU(d, parts.x0.data() + i), x1 = hn::LoadU(d, parts.x1.data() + i);
     struct Ray {
-      Numbers p, height, low, slope;
+      Numbers u, height, low, slope;
     };
     const auto ray = [&](Numbers x) ETENDUE_INLINE_LAMBDA {
-      const Numbers tau = tau_of(kappa, x), z = quadratic(hz0, hz1, hz2, tau), over = hn::Div(one, z);
+      const Numbers tau = tau_of(kappa, origin, x), z = quadratic(hz0, hz1, hz2, tau), over = hn::Div(one, z);
       const Numbers qx = hn::Mul(quadratic(hx0, hx1, hx2, tau), over), qy = hn::Mul(quadratic(hy0, hy1, hy2, tau), over);
       const Numbers q2 = hn::MulAdd(qx, qx, hn::Mul(qy, qy)), q = hn::Sqrt(q2);
-      const Numbers p1 = hn::Div(q, hn::Add(one, hn::Sqrt(hn::Add(one, q2))));
+      // 1 - p, which far out of the lobe has more digits than p.
+      const Numbers root = hn::Sqrt(hn::Add(one, q2));
+      const Numbers u1 = hn::Div(hn::Add(one, hn::Div(one, hn::Add(root, q))), hn::Add(one, root));
       // n.l at the part t of the ray: slopes stretch q, n.l = 2 v.h n.h - n.v.
       const auto height = [&](float t) ETENDUE_INLINE_LAMBDA {
-        const Numbers p = hn::MulAdd(constant(t), hn::Sub(p1, base), base);
-        const Numbers stretch = hn::Div(hn::Mul(hn::Mul(two, p), alpha), hn::Mul(hn::Mul(hn::Sub(one, p), hn::Add(one, p)), q));
+        const Numbers u = hn::MulAdd(constant(t), hn::Sub(u1, rest), rest), p = hn::Sub(one, u);
+        const Numbers stretch = hn::Div(hn::Mul(hn::Mul(two, p), alpha), hn::Mul(hn::Mul(u, hn::Sub(two, u)), q));
         const Numbers vm = hn::Mul(hn::Mul(stretch, view_x), qx), m2 = hn::Mul(hn::Mul(stretch, stretch), q2);
         return hn::Div(hn::MulAdd(two, vm, hn::NegMulAdd(view_z, m2, view_z)), hn::Add(one, m2));
       };
       constexpr float step = 1e-2f;
       const Numbers low = hn::Max(height(1), zero);
-      return Ray{p1, height_on_outline(z, view_z, tau), low, hn::Mul(hn::Sub(height(1 - step), low), constant(1 / step))};
+      return Ray{u1, height_on_outline(z, view_z, tau), low, hn::Mul(hn::Sub(height(1 - step), low), constant(1 / step))};
     };
     const Ray first = ray(x0), middle = ray(hn::Mul(constant(0.5f), hn::Add(x0, x1))), last = ray(x1);
     Numbers low = zero, slope = zero;
@@ -100,7 +105,7 @@ void FindRays(const SideBlock& block, PartList& parts) {
       const auto steeper = hn::Gt(r.slope, slope);
       low = hn::IfThenElse(steeper, r.low, low), slope = hn::IfThenElse(steeper, r.slope, slope);
     }
-    hn::StoreU(middle.p, d, parts.p.data() + i);
+    hn::StoreU(middle.u, d, parts.u.data() + i);
     hn::StoreU(hn::Max(first.height, hn::Max(middle.height, last.height)), d, parts.highest.data() + i);
     hn::StoreU(low, d, parts.low.data() + i), hn::StoreU(slope, d, parts.slope.data() + i);
   }
@@ -116,7 +121,9 @@ namespace etendue::eval {
 HWY_EXPORT(FindEnds);
 HWY_EXPORT(FindRays);
 
-void find_ends(const SideBlock& block, float negligible, SideEnds& ends) { HWY_DYNAMIC_DISPATCH(FindEnds)(block, negligible, ends); }
+void find_ends(const SideBlock& block, std::size_t count, float negligible, SideEnds& ends) {
+  HWY_DYNAMIC_DISPATCH(FindEnds)(block, count, negligible, ends);
+}
 void find_rays(const SideBlock& block, PartList& parts) { HWY_DYNAMIC_DISPATCH(FindRays)(block, parts); }
 
 }  // namespace etendue::eval

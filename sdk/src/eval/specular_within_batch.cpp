@@ -5,7 +5,9 @@
 #include "etendue/specular_light.h"
 #include "lobe_grading.h"
 #include "specular_far.h"
-#include "specular_layout.h"
+#include "specular_first_cells.h"
+#include "specular_outline.h"
+#include "specular_view.h"
 #include "views.h"
 
 #include <fmt/format.h>
@@ -15,6 +17,8 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,13 +27,16 @@ namespace etendue::eval {
 
 class SpecularWithinBatch::Light {
  public:
-  Light(const Emitter& emitter, const RectView& seen, bool separable_masking, double least_floor)
-      : white(emitter), view(seen), separable(separable_masking), least(least_floor) {}
+  Light(const Emitter& emitter, const OutlinedLight& outline_of) : white(emitter), outline(outline_of) {
+    const auto* polygon = std::get_if<PolygonEmitter>(&white.shape);
+    if (polygon == nullptr) return;
+    if (const std::optional<RectView> view = rect_view(*polygon, false, {}))
+      far = FarRectangle{view->corners(), view->normal, outline.two_sided, outline.separable};
+  }
 
   Emitter white;  // of 1 cd/m2
-  RectView view;
-  bool separable;
-  double least;  // RectWithin
+  OutlinedLight outline;
+  std::optional<FarRectangle> far;  // of what few places are enough
 };
 
 namespace {
@@ -39,32 +46,9 @@ constexpr double neglected = 0.25;
 
 struct CellPlan {
   double tolerance;
-  float negligible;  // part of the light that no cell is laid out for
+  float negligible;      // part of the light that no cell is laid out for
+  float most_cancelled;  // times the light, beyond which points are left to specular_luminance
   FarOrders far;
-};
-
-// One side of one point, in floats.
-struct SideAt {
-  const SideBlock& block;
-  std::size_t side, point;
-
-  float of(SideBlock::OfSide k) const { return block.side[k][side]; }
-  float of(SideBlock::OfPoint k) const { return block.point[k][point]; }
-  float tau_of(float x) const { return of(SideBlock::kappa) * x / ((1 - x) * (1 + x)); }
-  float x_of(float tau) const {
-    const float kappa = of(SideBlock::kappa);
-    return 2 * tau / (kappa + std::sqrt(kappa * kappa + 4 * tau * tau));
-  }
-  struct Q {
-    float x, y;
-    float length() const { return std::sqrt(x * x + y * y); }
-    float p() const { return length() / (1 + std::sqrt(1 + x * x + y * y)); }
-  };
-  Q at(float tau) const {
-    const float over = 1 / (of(SideBlock::z0) + tau * (of(SideBlock::z1) + tau * of(SideBlock::z2)));
-    return {(of(SideBlock::x0) + tau * (of(SideBlock::x1) + tau * of(SideBlock::x2))) * over,
-            (of(SideBlock::y0) + tau * (of(SideBlock::y1) + tau * of(SideBlock::y2))) * over};
-  }
 };
 
 // Lists of a block, 1.4 MB, kept by each thread: to ask for their pages takes longer than a few points do.
@@ -78,105 +62,6 @@ Lists& lists() {
   return *own_lists;
 }
 
-// First cells, as specular_light.cpp lays them out: sides are cut into parts, rays of those that reach a layer into cells.
-class CellLayout {
- public:
-  explicit CellLayout(const CellPlan& plan) : plan_(plan) {}
-
-  // Of the points that are asked for, whose cells come one after the other.
-  template <class Wanted>
-  void lay(const SideBlock& block, std::size_t count, const Wanted& wanted, CellList& cells) {
-    find_ends(block, plan_.negligible, ends_);
-    parts_.clear(), reaching_->count = 0;
-    for (std::size_t point = 0; point < count; ++point) {
-      if (!wanted(point)) continue;
-      const float layer = std::min(block.point[SideBlock::alpha][point], block.point[SideBlock::view_z][point]);
-      for (std::size_t side = 0; side < most_sides; ++side) {
-        const SideAt at{block, side * points_at_once + point, point};
-        const float x0 = at.of(SideBlock::begin), x1 = at.of(SideBlock::end);
-        if (x1 > x0) cut_side(at, x0, x1, layer, side == most_sides - 1);
-      }
-    }
-    find_rays(block, *reaching_);
-    for (const Part& part : parts_) lay_cells(part, block, cells);
-  }
-
- private:
-  struct Part {
-    std::int32_t point, side;
-    float x0, x1;
-    std::int32_t reaching = -1;  // where it is in that list
-  };
-  template <std::size_t N>
-  struct Marks {
-    std::array<float, N> at;
-    std::size_t count = 1;
-    explicit Marks(float first) { at[0] = first; }
-    void close(float last) {
-      if (count > 2) std::sort(at.begin(), at.begin() + static_cast<std::ptrdiff_t>(count));
-      at[count++] = last;
-    }
-  };
-  static constexpr std::size_t most_marks = 24;
-
-  void cut_side(const SideAt& at, float x0, float x1, float layer, bool horizon) {
-    constexpr float far = 0.5f, long_way = 0.8f;
-    const bool low = ends_.side[SideEnds::low][at.side] > 0, rim = ends_.side[SideEnds::rim][at.side] > 0;
-    Marks<most_marks> xs(x0);
-    const auto mark = [&](float x) {
-      if (x > x0 && x < x1 && xs.count < most_marks - 1) xs.at[xs.count++] = x;
-    };
-    if (x1 > long_way) mark(far);
-    if (x0 < -long_way) mark(-far);
-    if (x1 > 0.6f && x0 < -0.6f) mark(0);
-    if (low && !horizon) {
-      const float tau0 = at.tau_of(x0), tau1 = at.tau_of(x1);
-      const auto grade = [&](float from, float way, float height, float slope) {
-        if (height > std::max(2 * layer, std::sqrt(plan_.negligible)) || !(slope > 0)) return;
-        grade_heights(layer, plan_.negligible, height, slope, false, [&](float h) { mark(at.x_of(from + (h - height) / slope * way)); });
-      };
-      grade(tau0, tau1 - tau0, ends_.side[SideEnds::height_begin][at.side], ends_.side[SideEnds::slope_begin][at.side]);
-      grade(tau1, tau0 - tau1, ends_.side[SideEnds::height_end][at.side], ends_.side[SideEnds::slope_end][at.side]);
-    }
-    xs.close(x1);
-    for (std::size_t k = 0; k + 1 < xs.count; ++k) {
-      if (!(xs.at[k + 1] > xs.at[k])) continue;
-      Part part{static_cast<std::int32_t>(at.point), static_cast<std::int32_t>(at.side), xs.at[k], xs.at[k + 1]};
-      if (low || rim) {
-        part.reaching = static_cast<std::int32_t>(reaching_->count);
-        reaching_->add(part.point, part.side, part.x0, part.x1);
-      }
-      parts_.push_back(part);
-    }
-  }
-  void lay_cells(const Part& part, const SideBlock& block, CellList& cells) const {
-    if (part.reaching < 0) return cells.add(part.point, part.side, part.x0, part.x1, 0, 1);
-    const auto found = static_cast<std::size_t>(part.reaching);
-    const auto side = static_cast<std::size_t>(part.side);
-    const SideAt at{block, side, static_cast<std::size_t>(part.point)};
-    const float base = at.of(SideBlock::base), alpha = at.of(SideBlock::alpha), p = reaching_->p[found], length = p - base;
-    const float layer = std::min(alpha, at.of(SideBlock::view_z));
-    Marks<most_marks> ts(0);
-    const auto mark = [&](float t) {
-      if (t > 0 && t < 1 && ts.count < most_marks - 1) ts.at[ts.count++] = t;
-    };
-    const float low = reaching_->low[found], slope = reaching_->slope[found];
-    if (ends_.side[SideEnds::low][side] > 0 && slope > 0)
-      grade_heights(layer, plan_.negligible, low, slope, reaching_->highest[found] < 4 * layer,
-                    [&](float v) { mark(1 - (v - low) / slope); });
-    if (ends_.side[SideEnds::rim][side] > 0)
-      grade_rim(alpha, 1 - base, 1 - p, plan_.negligible, plan_.tolerance, [&](float away) { mark((1 - away - base) / length); });
-    ts.close(1);
-    for (std::size_t k = 0; k + 1 < ts.count; ++k)
-      if (ts.at[k + 1] > ts.at[k]) cells.add(part.point, part.side, part.x0, part.x1, ts.at[k], ts.at[k + 1]);
-  }
-
-  const CellPlan& plan_;
-  SideEnds ends_;
-  std::vector<Part> parts_;
-  PartList* reaching_ = &lists().parts;
-};
-
 struct Sums {
   float shape = 0, risen = 0, shape_error = 0, risen_error = 0;
   float rounding = 0;  // relative
@@ -188,7 +73,8 @@ struct Sums {
 // All cells of a block of points, round after round.
 class BlockWithin {
  public:
-  BlockWithin(const RectWithin& rect, const CellPlan& plan) : rect_(rect), plan_(plan), layout_(plan) {}
+  BlockWithin(const OutlinedLight& light, const std::optional<FarRectangle>& rectangle, const CellPlan& plan)
+      : light_(light), rectangle_(rectangle), plan_(plan), first_cells_(plan.tolerance, lists().parts) {}
 
   std::array<Sums, points_at_once> sums;
   std::array<bool, points_at_once> kept;  // to the tolerance
@@ -196,27 +82,25 @@ class BlockWithin {
   // Of as many of the places.
   PlaceBlock places;
   void run(std::size_t count) {
-    constexpr int most_rounds = 8;
-    far_shares(rect_, places, count, plan_.far, far);
-    lay_sides(rect_, places, count, block_);
+    if (rectangle_) {
+      far_shares(*rectangle_, places, count, plan_.far, far);
+    } else {
+      far.bound.fill(-1);
+    }
+    lay_sides(light_, places, count, block_);
     cells_->full = next_->full = false;
-    cells_->clear();
+    std::array<bool, points_at_once> wanted;
     for (std::size_t i = 0; i < count; ++i) {
       sums[i] = {};
-      const bool sure = block_.point[SideBlock::doubt][i] == 0, lit = block_.point[SideBlock::floor][i] > 0;
+      const bool sure = block_.point[SideBlock::doubt][i] == 0, lit = floor(i) > 0;
       kept[i] = is_far(i) || (sure && !lit);
+      wanted[i] = !is_far(i) && sure && lit;
     }
-    layout_.lay(
-        block_, count, [&](std::size_t i) { return !is_far(i) && block_.point[SideBlock::doubt][i] == 0 && floor(i) > 0; }, *cells_);
-    for (int round = 0; round < most_rounds && cells_->count > 0; ++round) {
-      measure(block_, plan_.tolerance, *cells_);
-      next_->clear();
-      for (std::size_t from = 0, to = 0; from < cells_->count; from = to) {
-        const std::int32_t point = cells_->point[from];
-        while (to < cells_->count && cells_->point[to] == point) ++to;
-        judge(static_cast<std::size_t>(point), from, to);
-      }
-      std::swap(cells_, next_);
+    again_.fill(false);
+    refine(std::span(wanted).first(count), plan_.negligible, little_cancelled);
+    if (std::find(again_.begin(), again_.end(), true) != again_.end()) {
+      wanted = again_;
+      refine(std::span(wanted).first(count), plan_.negligible / plan_.most_cancelled, plan_.most_cancelled);
     }
     // Whose cells are missing is not known.
     if (cells_->full || next_->full)
@@ -227,6 +111,33 @@ class BlockWithin {
   float floor(std::size_t i) const { return block_.point[SideBlock::floor][i]; }
 
  private:
+  // What is negligible is so beside the light, not beside what cancels: up to this part of it.
+  static constexpr float little_cancelled = 8;
+
+  // Points whose cells cancel by more than `cancelled` times the light are left: to be looked at `again_`, or in double.
+  void refine(std::span<const bool> wanted, float negligible, float cancelled) {
+    constexpr int most_rounds = 8;
+    cells_->clear();
+    first_cells_.lay(block_, wanted, negligible, *cells_);
+    for (int round = 0; round < most_rounds && cells_->count > 0; ++round) {
+      measure(block_, plan_.tolerance, *cells_);
+      next_->clear();
+      for (std::size_t from = 0, to = 0; from < cells_->count; from = to) {
+        const std::int32_t point = cells_->point[from];
+        while (to < cells_->count && cells_->point[to] == point) ++to;
+        if (round > 0 || !cancels(static_cast<std::size_t>(point), from, to, cancelled)) judge(static_cast<std::size_t>(point), from, to);
+      }
+      std::swap(cells_, next_);
+    }
+  }
+  bool cancels(std::size_t point, std::size_t from, std::size_t to, float cancelled) {
+    float size = 0, sum = 0;
+    for (std::size_t i = from; i < to; ++i) size += std::abs(cells_->shape[i]), sum += cells_->shape[i];
+    const float light = std::max(sum, floor(point));
+    if (!(size > cancelled * light)) return false;
+    again_[point] = size > little_cancelled * light && !(size > plan_.most_cancelled * light);
+    return true;
+  }
   // Of cells that have been measured, those of one point: all are taken, or the worst are halved.
   void judge(std::size_t point, std::size_t from, std::size_t to) {
     constexpr std::size_t most_cells = 200;
@@ -264,23 +175,32 @@ class BlockWithin {
     }
   }
   void halve(std::size_t point, std::size_t i) {
-    const float x0 = cells_->x0[i], x1 = cells_->x1[i], t0 = cells_->t0[i], t1 = cells_->t1[i];
-    const auto add = [&](float xa, float xb, float ta, float tb) { next_->add(cells_->point[i], cells_->side[i], xa, xb, ta, tb); };
+    const SpanOfX x{cells_->origin[i], cells_->x0[i], cells_->x1[i]};
+    const float t0 = cells_->t0[i], t1 = cells_->t1[i];
+    const auto add = [&](const SpanOfX& part, float ta, float tb) { next_->add(cells_->point[i], cells_->side[i], part, ta, tb); };
     if (cells_->along_t[i] > 0) {
       const SideAt at{block_, static_cast<std::size_t>(cells_->side[i]), point};
-      const float base = at.of(SideBlock::base), length = at.at(at.tau_of(0.5f * (x0 + x1))).p() - base;
-      const float middle = split_towards_rim(t0, t1, length > 1e-6f ? std::max((1 - base) / length, 1.0f) : 1e30f);
-      add(x0, x1, t0, middle), add(x0, x1, middle, t1);
+      const float rest = at.of(SideBlock::rest), length = rest - at.middle_of(x).from_rim();
+      const float middle = split_towards_rim(t0, t1, length > 1e-6f * rest ? std::max(rest / length, 1.0f) : 1e30f);
+      add(x, t0, middle), add(x, middle, t1);
     } else {
-      const float middle = split_towards_rim(x0, x1, 1.0f);
-      add(x0, middle, t0, t1), add(middle, x1, t0, t1);
+      const float middle = middle_towards_rim(x);
+      add({x.origin, x.from, middle}, t0, t1), add({x.origin, middle, x.to}, t0, t1);
     }
   }
+  // Of |x| = 1.
+  static float middle_towards_rim(const SpanOfX& x) {
+    if (x.origin == 0) return split_towards_rim(x.from, x.to, 1.0f);
+    const float span = x.to - x.from;
+    return x.origin > 0 ? x.from + split_towards_rim(0.0f, span, -x.from) : x.to - split_towards_rim(0.0f, span, x.to);
+  }
 
-  const RectWithin& rect_;
+  const OutlinedLight& light_;
+  const std::optional<FarRectangle>& rectangle_;
   const CellPlan& plan_;
   SideBlock block_;
-  CellLayout layout_;
+  FirstCells first_cells_;
+  std::array<bool, points_at_once> again_;
   CellList *cells_ = &lists().cells, *next_ = &lists().next;
 };
 
@@ -298,23 +218,43 @@ BoundedShare bounded(const Sums& s, double floor, double tolerance) {
 }
 
 // specular_luminance takes one f0 a channel: the whole lobe, and what f90 alone has of it.
-BoundedShare in_double(const Emitter& white, const RectWithin& rect, const Vec3d& origin, const PlaceBlock& places, std::size_t i,
+BoundedShare in_double(const Emitter& white, const OutlinedLight& light, const Vec3d& origin, const PlaceBlock& places, std::size_t i,
                        double tolerance) {
   const auto at = [&](std::size_t k) { return Vec3d{places.numbers[k][i], places.numbers[k + 1][i], places.numbers[k + 2][i]}; };
   const Vec3d normal = at(3), view = at(6);
   if (!(length(normal) > 0 && length(view) > 0)) return {};
   ShadingPoint point{at(0) + origin, normalised(normal), normalised(normal), normalised(view), Lambert{}};
-  const Masking masking = rect.separable ? Masking::separable : Masking::correlated;
+  const Masking masking = light.separable ? Masking::separable : Masking::correlated;
   point.brdf = GgxLobe{places.numbers[9][i], {1, SpecularWithinBatch::least_f0, 1}, 1, masking};
-  const Estimate found = specular_luminance(white, point, tolerance, rect.least).value_or(Estimate{});
+  const Estimate found = specular_luminance(white, point, tolerance, light.least).value_or(Estimate{});
   const double whole = found.value.x, dark = found.value.y, least = SpecularWithinBatch::least_f0;
   const double risen = std::clamp((dark - least * whole) / (1 - least), 0.0, whole);
   return {whole - risen, risen, found.error.x, found.error.y};
 }
 
-CellPlan plan_for(double tolerance) {
+// The same light of 1 cd/m2.
+Emitter of_one(Emitter emitter) {
+  if (auto* sun = std::get_if<DistantEmitter>(&emitter.shape)) {
+    const double sine = std::sin(sun->radius_rad);
+    sun->illuminance = Rgb{1, 1, 1} * (pi * sine * sine);
+  }
+  emitter.radiance = {1, 1, 1};
+  return emitter;
+}
+
+// Fewer at once of a polygon of very many sides, whose cells fill the lists.
+std::size_t points_of(const OutlinedLight& light) {
+  constexpr std::size_t most_sides = 1024;
+  const auto* polygon = std::get_if<CornersSeen>(&light.shape);
+  return polygon == nullptr ? points_at_once : std::clamp<std::size_t>(most_sides / polygon->corners.size(), 1, points_at_once);
+}
+
+CellPlan plan_for(const OutlinedLight& light, double tolerance) {
+  // Places of a great circle share their roundings, those of a smaller one have each its own.
+  const float most_cancelled = std::holds_alternative<CornersSeen>(light.shape) ? 64 : 16;
+
   // Facets may send four times as much of the light elsewhere as at the middle of the lobe (specular_light.cpp).
-  return {tolerance, static_cast<float>(neglected * tolerance / 4), FarOrders(tolerance)};
+  return {tolerance, static_cast<float>(neglected * tolerance / 4), most_cancelled, FarOrders(tolerance)};
 }
 
 }  // namespace
@@ -326,35 +266,33 @@ Result<SpecularWithinBatch> SpecularWithinBatch::of(const Emitter& emitter, doub
   }
   if (masking != Masking::correlated && masking != Masking::separable)
     return Error{"METHOD_LOBE", "expected height-correlated or separable masking", {}, {}, {}};
-  Emitter white = emitter;
-  white.radiance = {1, 1, 1};
-  const auto* polygon = std::get_if<PolygonEmitter>(&white.shape);
-  const bool uniform = !white.pattern && !is_window(white.window);
-  const std::optional<RectView> view = polygon != nullptr && uniform ? rect_view(*polygon, false, {}) : std::nullopt;
-  if (!view) return Error{"METHOD_SHAPE", "expected a uniform rectangle without a window", {}, {}, {}};
-  const double brightest = std::max({emitter.radiance.x, emitter.radiance.y, emitter.radiance.z});
-  const double floor = least > 0 && brightest > 0 ? least / brightest : 0;
-  return SpecularWithinBatch(tolerance, std::make_shared<const Light>(white, *view, masking == Masking::separable, floor),
-                             emitter.radiance);
+  std::optional<OutlinedLight> outline = is_uniform_area_light(emitter) ? outlined(emitter) : std::nullopt;
+  if (!outline) return Error{"METHOD_SHAPE", "expected a uniform polygon, sphere or sun without a window", {}, {}, {}};
+  const Rgb luminance = luminance_of(emitter);
+  const double brightest = std::max({luminance.x, luminance.y, luminance.z});
+  outline->separable = masking == Masking::separable;
+  outline->least = least > 0 && brightest > 0 ? least / brightest : 0;
+  return SpecularWithinBatch(tolerance, std::make_shared<const Light>(of_one(emitter), *outline), luminance);
 }
 
 template <class Fill>
 std::size_t SpecularWithinBatch::over(std::size_t count, const Vec3d& origin, const Fill& fill, const BoundedShares& to,
                                       float where_none) const {
-  const RectView& view = light_->view;
-  const auto corner = [&](double x, double y) { return view.at(x * view.half_x, y * view.half_y) - origin; };
-  const RectWithin rect{
-      {corner(-1, -1), corner(-1, 1), corner(1, 1), corner(1, -1)}, view.normal, light_->white.two_sided, light_->separable, light_->least};
-  const CellPlan plan = plan_for(tolerance_);
-  const auto block = std::make_unique<BlockWithin>(rect, plan);
+  const OutlinedLight outline = light_->outline.seen_from(origin);
+  std::optional<FarRectangle> far_away = light_->far;
+  if (far_away)
+    for (Vec3d& corner : far_away->corners) corner = corner - origin;
+  const CellPlan plan = plan_for(outline, tolerance_);
+  const auto block = std::make_unique<BlockWithin>(outline, far_away, plan);
+  const std::size_t most = points_of(outline);
   std::size_t without = 0;
   const auto write = [&](std::size_t index, const BoundedShare& share) {
     to.of_f0[index] = static_cast<float>(share.of_f0), to.of_f90[index] = static_cast<float>(share.of_f90);
     if (!to.bound_f0.empty()) to.bound_f0[index] = static_cast<float>(share.bound_f0);
     if (!to.bound_f90.empty()) to.bound_f90[index] = static_cast<float>(share.bound_f90);
   };
-  for (std::size_t first = 0; first < count; first += points_at_once) {
-    const std::size_t number = std::min(points_at_once, count - first);
+  for (std::size_t first = 0; first < count; first += most) {
+    const std::size_t number = std::min(most, count - first);
     PlaceBlock& places = block->places;
     for (auto& numbers : places.numbers) std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(number), numbers.end(), 1.0);
     fill(first, number, places);
@@ -368,7 +306,7 @@ std::size_t SpecularWithinBatch::over(std::size_t count, const Vec3d& origin, co
         write(index, bounded(block->sums[i], block->floor(i), tolerance_));
       } else if (std::all_of(places.numbers.begin(), places.numbers.end(),
                              [&](const auto& numbers) { return std::isfinite(numbers[i]); })) {
-        write(index, in_double(light_->white, rect, origin, places, i, tolerance_));
+        write(index, in_double(light_->white, outline, origin, places, i, tolerance_));
       } else {
         write(index, {where_none, where_none, 0, 0});
         ++without;
