@@ -17,6 +17,7 @@
 #include "etendue/diffuse_light.h"
 #include "etendue/directional_albedo.h"
 #include "etendue/illuminance_batch.h"
+#include "etendue/light_pictures.h"
 #include "etendue/light_within.h"
 #include "etendue/probe.h"
 #include "etendue/published.h"
@@ -167,11 +168,12 @@ class Evaluator {
     std::optional<eval::LightBatch> batch;
     std::optional<eval::LightPlan> plan;
   };
-  Prepared prepared(const Emitter& emitter) const;
+  Prepared prepared(const Emitter& emitter, const std::shared_ptr<const eval::PictureMoments>& picture) const;
   std::vector<Answer> operator()(const Emitter& emitter, const Prepared& prepared, std::span<const PointRow> points) const;
   // Whether the method takes this light.
   Status accepts(const Emitter& emitter, const std::string& name) const;
   // Of patches: a light's card comes before it is asked for; the emitter stays where it is.
+  bool wants_pictures() const { return planned_; }
   bool wants_cards() const { return patches_ || looked_up_ != nullptr; }
   void take_card(const Emitter& emitter, eval::LightCard card) {
     const eval::LightCard& kept = cards_.emplace(&emitter, std::move(card)).first->second;
@@ -236,7 +238,7 @@ Result<Evaluator> Evaluator::of(const Options& o) {
   e.looked_up_ = eval::find_card_method(o.method);
   if (e.looked_up_ != nullptr) return e;
   e.adaptive_ = distributions.contains(o.brdf) && o.method == "adaptive";
-  e.planned_ = o.tolerance_alone && !e.lambert_;
+  e.planned_ = o.tolerance_alone;
   if (o.method == "exact" || o.method == "reference" || e.adaptive_) {
     e.closed_ = o.method != "reference";
     return e;
@@ -432,9 +434,10 @@ double facing(const Emitter& emitter, const Rgb& scale, const Vec3d& position) {
   return largest(scale) / std::max(dot(to, to), 1e-280);
 }
 
-Evaluator::Prepared Evaluator::prepared(const Emitter& emitter) const {
+Evaluator::Prepared Evaluator::prepared(const Emitter& emitter, const std::shared_ptr<const eval::PictureMoments>& picture) const {
   Prepared made;
-  if (planned_) made.plan.emplace(emitter, eval::Tolerance{tolerance_, 0});
+  // Lambert's closed forms need no plan; pictures have none.
+  if (planned_ && (!lambert_ || picture != nullptr)) made.plan.emplace(emitter, eval::Tolerance{tolerance_, 0}, picture);
   if (!in_floats()) return made;
   Result<eval::LightBatch> batch = eval::LightBatch::of(emitter);
   if (batch) made.batch = *std::move(batch);
@@ -447,8 +450,9 @@ std::vector<Answer> Evaluator::operator()(const Emitter& emitter, const Prepared
   if (prepared.plan) {
     std::vector<eval::ShadingPoint> places;
     for (const PointRow& p : points) places.push_back(shading_point(p));
+    const double scale = lambert_ ? pi : 1;
     for (const eval::LightWithin& found : (*prepared.plan)(places))
-      answers.push_back({found.light.value, largest(found.light.error), found.way});
+      answers.push_back({found.light.value * scale, largest(found.light.error) * scale, found.way});
     return answers;
   }
   const std::optional<eval::LightBatch>& batch = prepared.batch;
@@ -535,7 +539,16 @@ int run_eval(const Common& common, const Options& options) {
   if (session.diagnostics.has_errors()) return session.finish(exit_bad_input);
   const auto lit = lit_lights(imported->scene, options.lights, options.mute);
   if (!lit) return session.fail(lit.error());
-  const auto emitters = emitters_of(imported->scene, *lit);
+  Result<std::vector<Emitter>> emitters = std::vector<Emitter>{};
+  std::vector<std::shared_ptr<const eval::PictureMoments>> pictures(lit->size());
+  if (evaluator->wants_pictures()) {
+    Result<std::vector<PicturedEmitter>> pictured = pictured_emitters_of(imported->scene, *lit);
+    if (!pictured) return session.fail(pictured.error());
+    for (std::size_t i = 0; i < lit->size(); ++i)
+      emitters->push_back(std::move((*pictured)[i].emitter)), pictures[i] = std::move((*pictured)[i].picture);
+  } else {
+    emitters = emitters_of(imported->scene, *lit);
+  }
   if (!emitters) return session.fail(emitters.error());
   const auto name = [&](std::size_t i) -> const std::string& { return imported->scene.lights[(*lit)[i]].name; };
   for (std::size_t i = 0; i < emitters->size() && evaluator->wants_cards(); ++i) {
@@ -551,7 +564,7 @@ int run_eval(const Common& common, const Options& options) {
   if (options.sum && evaluator->in_floats()) {
     sum.emplace(*emitters, *evaluator, options.tolerance);
   } else {
-    for (const Emitter& emitter : *emitters) prepared.push_back(evaluator->prepared(emitter));
+    for (std::size_t i = 0; i < emitters->size(); ++i) prepared.push_back(evaluator->prepared((*emitters)[i], pictures[i]));
   }
   session.result = Json::array();
   std::uint64_t points = 0;
@@ -646,7 +659,8 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
               "ggx), or a method's name: published ones of diffuse "
               "light; of ggx adaptive (to --tolerance), moments, ltc, ltc-two-lobes, and published ones such as karis-14, drobot-elongated "
               "(of "
-              "every round lobe), frostbite-6 (the sun). A name that is none lists them. With --tolerance alone, but for lambert: whatever "
+              "every round lobe), frostbite-6 (the sun). A name that is none lists them. With --tolerance alone, of lambert for pictures "
+              "on rectangles: whatever "
               "keeps it at the least cost, which the answer names")
           ->capture_default_str();
   verb->add_option("--samples", options->samples, "Of monte-carlo: samples of each light at each point (default 65536)")
@@ -677,7 +691,8 @@ void add_eval(CLI::App& app, const Common& common, Run& run) {
       "  etendue eval studio.rig.json --points floor.csv --brdf standard --method monte-carlo --samples 1000000 --seed 7\n"
       "  etendue eval studio.rig.json --points floor.csv --lights key --method frostbite-12\n"
       "  etendue eval screen.rig.json --points floor.csv --brdf ggx --alpha 0.2 --method patches --tolerance 1e-2\n"
-      "  etendue eval screen.rig.json --points floor.csv --method drobot-diffuse-card");
+      "  etendue eval screen.rig.json --points floor.csv --method drobot-diffuse-card\n"
+      "  etendue eval screen.rig.json --points floor.csv --brdf standard --tolerance 1e-3");
   verb->callback([&common, &run, options, method, tolerance] {
     options->tolerance_alone = method->count() == 0 && tolerance->count() > 0;
     run = [&common, options] { return run_eval(common, *options); };

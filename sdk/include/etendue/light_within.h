@@ -13,6 +13,8 @@
 
 namespace etendue::eval {
 
+class PictureMoments;
+
 struct LightWithin {
   Estimate light;        // cd/m2; `error` is what is told of it, of both lobes where there are two
   std::string_view way;  // how it was found
@@ -27,6 +29,7 @@ struct LightWithin {
 //   two lobes  Standard, MetalRough and TwoColour under area lights: half the tolerance for each lobe, GGX as above and `reference` of the
 //              diffuse one alone, which has no peak
 //   cells      either, with GGX in vectors (specular_within_batch.h): polygons, spheres, suns, many points, from 1e-4 (two lobes: 2e-4) on
+//   picture    a rectangle with a picture whose moments are given (picture_light.h), where its cells are enough
 //   reference  all else
 // No approximation with a fixed error is among them: `moments` is further off than .1 in a sixth of the configurations of
 // tests/acceptance/specular --only adaptive, the transformed cosines in a quarter.
@@ -36,7 +39,8 @@ LightWithin light_within(const Emitter& emitter, const ShadingPoint& point, doub
 // cd/m2. What does not hang on the point is made once. May be used from several threads.
 class LightPlan {
  public:
-  LightPlan(const Emitter& emitter, const Tolerance& tolerance);
+  // `picture`: that of the emitter's pattern, or null.
+  LightPlan(const Emitter& emitter, const Tolerance& tolerance, std::shared_ptr<const PictureMoments> picture = nullptr);
 
   LightWithin operator()(const ShadingPoint& point) const;
   // As many answers as points.
@@ -47,6 +51,7 @@ class LightPlan {
   const Emitter& emitter_;
   Tolerance tolerance_;
   std::shared_ptr<const Batches> batches_;
+  std::shared_ptr<const PictureMoments> picture_;
 };
 
 }  // namespace etendue::eval

@@ -1,6 +1,7 @@
 #include "etendue/light_within.h"
 
 #include "etendue/far_luminance.h"
+#include "etendue/picture_light.h"
 #include "etendue/specular_light.h"
 #include "etendue/specular_within_batch.h"
 #include "schlick_lobes.h"
@@ -36,6 +37,16 @@ class Planned {
  public:
   Planned(const Emitter& emitter, const Tolerance& tolerance, const ShadingPoint& point, double floor = 0)
       : emitter_(emitter), tolerance_(tolerance), point_(point), floor_(floor) {}
+
+  std::optional<LightWithin> of_picture(const PictureMoments& picture) {
+    Emitter plain = emitter_;
+    plain.pattern = {};
+    plain.radiance = plain.radiance * picture.mean();
+    floor_ = 1e-3 * brightest(illuminance(plain, point_.position, point_.normal));
+    const double absolute = std::max(tolerance_.relative * floor_, tolerance_.absolute);
+    const auto light = picture_luminance(emitter_, picture, point_, {tolerance_.relative, absolute});
+    return light ? std::optional(LightWithin{*light, light->value == Rgb{} ? "unseen" : "picture"}) : std::nullopt;
+  }
 
   // Where one of the ways that need no cells is enough.
   std::optional<LightWithin> at_once() {
@@ -119,8 +130,10 @@ struct Group {
 
 }  // namespace
 
-LightPlan::LightPlan(const Emitter& emitter, const Tolerance& tolerance)
-    : emitter_(emitter), tolerance_{std::clamp(tolerance.relative, 1e-9, 1.0), std::max(tolerance.absolute, 0.0)} {
+LightPlan::LightPlan(const Emitter& emitter, const Tolerance& tolerance, std::shared_ptr<const PictureMoments> picture)
+    : emitter_(emitter),
+      tolerance_{std::clamp(tolerance.relative, 1e-9, 1.0), std::max(tolerance.absolute, 0.0)},
+      picture_(std::move(picture)) {
   auto batches = std::make_shared<Batches>();
   const std::array maskings{Masking::correlated, Masking::separable};
   for (std::size_t m = 0; m < maskings.size(); ++m) {
@@ -144,7 +157,8 @@ std::vector<LightWithin> LightPlan::operator()(std::span<const ShadingPoint> poi
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
     Planned planned(emitter_, tolerance_, points[i]);
-    if (const auto found = planned.at_once()) {
+    const auto pictured = picture_ != nullptr ? planned.of_picture(*picture_) : std::nullopt;
+    if (const auto found = pictured ? pictured : planned.at_once()) {
       answers[i] = *found;
       continue;
     }

@@ -38,6 +38,7 @@ bool LightPainter::find_centres(RowRunner& rows) {
 }
 
 bool LightPainter::centre_is_needed(std::uint32_t x, std::uint32_t y) const {
+  if (!has_plan(index(x, y))) return false;
   if (options_.shadows == Shadows::ratio || surroundings(x, y).beta > 0) return true;
   return (x > 0 && surroundings(x - 1, y).beta > 0) || (y > 0 && surroundings(x, y - 1).beta > 0) ||
          (x + 1 < options_.width && surroundings(x + 1, y).beta > 0) || (y + 1 < options_.height && surroundings(x, y + 1).beta > 0);
@@ -59,9 +60,9 @@ void LightPainter::centre_row(std::uint32_t row, int pass, RayCounts& counts) {
     const Ray ray = camera_.through(x + 0.5, row + 0.5);
     const auto point = stage_.first(ray);
     if (!is_plain(point) && !is_coloured(point)) continue;
-    // Lambert's closed forms cost no more than an interpolation.
+    // Lambert's closed forms cost no more than an interpolation; pictures have none.
     const Rgb colour = base_colour_at(*stage_.thing(point->thing).paint, point->uv);
-    const std::optional<Response> between = is_matt(*point) ? std::nullopt : interpolated(x, row, colour);
+    const std::optional<Response> between = is_matt(*point) && light_.picture == nullptr ? std::nullopt : interpolated(x, row, colour);
     if (between) {
       keep(pixel, *between);
     } else {

@@ -7,9 +7,25 @@
 #include <utility>
 
 namespace etendue {
+namespace {
+
+// Texels joined as they stand.
+bool is_plain(const Texture& texture) {
+  const auto& m = texture.uv_transform;
+  return !texture.nearest && m[0][0] == 1 && m[0][1] == 0 && m[0][2] == 0 && m[1][0] == 0 && m[1][1] == 1 && m[1][2] == 0;
+}
+
+Result<std::shared_ptr<const DecodedImage>> decoded_alone(const Scene& scene, const Texture& texture) {
+  Result<DecodedImage> decoded = decode(scene.images[texture.image], texture.encoding);
+  if (!decoded) return decoded.error();
+  return std::make_shared<const DecodedImage>(std::move(*decoded));
+}
+
+}  // namespace
+
 namespace rendering {
 
-Result<eval::Emitter> emitter_in(const Scene& scene, const Light& light, const TextureSource& texture) {
+Result<PicturedEmitter> emitter_in(const Scene& scene, const Light& light, const TextureSource& texture, bool with_picture) {
   eval::EmitterParts parts;
   if (const auto* shape = std::get_if<MeshShape>(&light.shape)) {
     const Mesh& mesh = scene.meshes[shape->mesh];
@@ -29,15 +45,22 @@ Result<eval::Emitter> emitter_in(const Scene& scene, const Light& light, const T
     for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = {decoded->rgba[4 * i], decoded->rgba[4 * i + 1], decoded->rgba[4 * i + 2]};
     parts.environment = eval::make_environment(decoded->width, decoded->height, std::move(pixels));
   }
+  std::uint32_t width = 0, height = 0;
   if (light.emission.texture) {
     Result<std::shared_ptr<const DecodedImage>> decoded = texture(*light.emission.texture);
     if (!decoded) return decoded.error();
+    width = (*decoded)->width, height = (*decoded)->height;
     parts.pattern = [pixels = std::move(*decoded), where = *light.emission.texture](Vec2d uv) {
       const Rgba texel = sample(*pixels, where, uv);
       return Rgb{texel.r, texel.g, texel.b};
     };
   }
-  return eval::emitter_of(light, parts);
+  Result<eval::Emitter> emitter = eval::emitter_of(light, parts);
+  if (!emitter) return emitter.error();
+  PicturedEmitter made{std::move(*emitter), nullptr};
+  if (with_picture && light.emission.texture && is_plain(*light.emission.texture) && eval::carries_picture(made.emitter))
+    made.picture = std::make_shared<const eval::PictureMoments>(made.emitter.pattern, width, height);
+  return made;
 }
 
 }  // namespace rendering
@@ -45,14 +68,21 @@ Result<eval::Emitter> emitter_in(const Scene& scene, const Light& light, const T
 Result<std::vector<eval::Emitter>> emitters_of(const Scene& scene, std::span<const std::uint32_t> lights) {
   std::vector<eval::Emitter> emitters;
   for (const std::uint32_t light : lights) {
-    Result<eval::Emitter> emitter =
-        rendering::emitter_in(scene, scene.lights[light], [&](const Texture& texture) -> Result<std::shared_ptr<const DecodedImage>> {
-          Result<DecodedImage> decoded = decode(scene.images[texture.image], texture.encoding);
-          if (!decoded) return decoded.error();
-          return std::make_shared<const DecodedImage>(std::move(*decoded));
-        });
-    if (!emitter) return emitter.error();
-    emitters.push_back(std::move(*emitter));
+    Result<PicturedEmitter> made = rendering::emitter_in(
+        scene, scene.lights[light], [&](const Texture& t) { return decoded_alone(scene, t); }, false);
+    if (!made) return made.error();
+    emitters.push_back(std::move(made->emitter));
+  }
+  return emitters;
+}
+
+Result<std::vector<PicturedEmitter>> pictured_emitters_of(const Scene& scene, std::span<const std::uint32_t> lights) {
+  std::vector<PicturedEmitter> emitters;
+  for (const std::uint32_t light : lights) {
+    Result<PicturedEmitter> made = rendering::emitter_in(
+        scene, scene.lights[light], [&](const Texture& t) { return decoded_alone(scene, t); }, true);
+    if (!made) return made.error();
+    emitters.push_back(std::move(*made));
   }
   return emitters;
 }
@@ -65,9 +95,7 @@ Result<eval::LightCard> card_of(const Scene& scene, const Light& light) {
     return std::move(*builder).finish();
   }
   const Texture& texture = *light.emission.texture;
-  const auto& m = texture.uv_transform;
-  const bool plain = m[0][0] == 1 && m[0][1] == 0 && m[0][2] == 0 && m[1][0] == 0 && m[1][1] == 1 && m[1][2] == 0;
-  if (texture.nearest || !plain) {
+  if (!is_plain(texture)) {
     return Error{"EVALUATION_UNSUPPORTED",
                  "light '" + light.name + "': expected a texture without a transform, whose texels are joined, for a card",
                  {scene.file, 0, 0, {}},

@@ -52,7 +52,7 @@ LightPainter::LightPainter(const Stage& stage, const PinholeCamera& camera, cons
   tolerance_.relative = std::clamp(shading_share * options.expected_noise, 1e-7, 1e-3);
   tolerance_.absolute = tolerance_.relative * dark_share * typical_luminance();
   if (options.shading_tolerance > 0) tolerance_ = {options.shading_tolerance, 0};
-  plan_.emplace(light.emitter, tolerance_);
+  plan_.emplace(light.emitter, tolerance_, light.picture);
 }
 
 std::uint64_t LightPainter::seed(std::size_t pixel, std::uint64_t purpose) const {
@@ -78,8 +78,10 @@ bool LightPainter::run(RowRunner& rows) {
   const std::size_t pixels = value_.size();
   if (shadows_) visible_.assign(pixels, 0), all_.assign(pixels, 0);
   if (light_.analytic) black_.assign(pixels, {}), slope_.assign(pixels, {}), centre_bound_.assign(pixels, 0), known_.assign(pixels, 0);
+  if (light_.picture != nullptr) pictured_.assign(pixels, 0);
   if (shadows_) mixed_variance_.assign(pixels, {}), is_mixed_.assign(pixels, 0);
   return rows.run([this](std::uint32_t row, RayCounts& counts) {
+    if (light_.picture != nullptr) picture_row(row);
     if (shadows_) pilot_row(row, counts);
   }) && find_centres(rows) &&
          rows.run([this](std::uint32_t row, RayCounts& counts) { paint_row(row, counts); }) &&
@@ -92,6 +94,8 @@ bool LightPainter::is_uneven(std::size_t pixel) const {
   constexpr double most = 0.15;
   return survey_.unevenness(pixel) > most;
 }
+
+bool LightPainter::has_plan(std::size_t pixel) const { return light_.analytic && (light_.picture == nullptr || pictured_[pixel] != 0); }
 
 bool LightPainter::is_plain(const std::optional<SurfacePoint>& point) const {
   const Paint* paint = point ? stage_.thing(point->thing).paint : nullptr;
@@ -113,6 +117,22 @@ PixelTarget LightPainter::target(std::uint32_t x, std::uint32_t y, const Surface
   return {x, y, plane ? centre : nullptr};
 }
 
+// A narrow lobe shows a picture as sharp as it is: many of its cells for each place, and many places for each pixel. Samples do that at
+// less.
+void LightPainter::picture_row(std::uint32_t row) {
+  constexpr double narrowest = 0.1;
+  for (std::uint32_t x = 0; x < options_.width; ++x) {
+    const std::size_t pixel = index(x, row);
+    if (const Regions* regions = survey_.regions(pixel)) {
+      pictured_[pixel] = regions->only_lambert ? 1 : 0;
+      continue;
+    }
+    const auto centre = stage_.first(camera_.through(x + 0.5, row + 0.5));
+    const Paint* const paint = centre ? stage_.thing(centre->thing).paint : nullptr;
+    pictured_[pixel] = paint == nullptr || lobe_width(paint->material.model) >= narrowest ? 1 : 0;
+  }
+}
+
 void LightPainter::pilot_row(std::uint32_t row, RayCounts& counts) {
   for (std::uint32_t x = 0; x < options_.width; ++x) {
     const auto centre = stage_.first(camera_.through(x + 0.5, row + 0.5));
@@ -127,7 +147,7 @@ void LightPainter::pilot_row(std::uint32_t row, RayCounts& counts) {
 LightPainter::Surroundings LightPainter::surroundings(std::uint32_t x, std::uint32_t y) const {
   if (light_.delta) return {1, false};
   // Where the surface is uneven no few places stand for the pixel: all light is sampled, as where it has no closed form.
-  if (!light_.analytic || is_uneven(index(x, y))) return {0, true};
+  if (!has_plan(index(x, y)) || is_uneven(index(x, y))) return {0, true};
   if (!shadows_) return {1, false};
   double visible = 0, all = 0;
   for (std::uint32_t j = y > reach ? y - reach : 0; j <= std::min(y + reach, options_.height - 1); ++j) {
@@ -152,7 +172,7 @@ Sampled LightPainter::sampled(std::uint32_t x, std::uint32_t y, const Surroundin
                               RayCounts& counts) const {
   const std::size_t pixel = index(x, y);
   if (light_.delta || (survey_.regions(pixel) == nullptr && (!centre || stage_.thing(centre->thing).paint == nullptr))) return {};
-  if (light_.analytic && !shadows_ && !around.mixed) return {};
+  if (has_plan(pixel) && !shadows_ && !around.mixed) return {};
   Effort effort = pilot;
   std::uint64_t purpose = pilot_purpose;
   if (around.mixed) {

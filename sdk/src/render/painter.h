@@ -80,6 +80,7 @@ class LightPainter {
 
   double typical_luminance() const;
   void pilot_row(std::uint32_t row, RayCounts& counts);
+  void picture_row(std::uint32_t row);
   bool find_centres(RowRunner& rows);
   void centre_row(std::uint32_t row, int pass, RayCounts& counts);
   std::optional<Response> interpolated(std::uint32_t x, std::uint32_t y, const Rgb& colour) const;
@@ -88,6 +89,7 @@ class LightPainter {
   Surroundings surroundings(std::uint32_t x, std::uint32_t y) const;
   bool centre_is_needed(std::uint32_t x, std::uint32_t y) const;
   bool is_uneven(std::size_t pixel) const;
+  bool has_plan(std::size_t pixel) const;
   bool is_plain(const std::optional<SurfacePoint>& point) const;
   bool is_coloured(const std::optional<SurfacePoint>& point) const;
   bool is_matt(const SurfacePoint& point) const;
@@ -128,6 +130,7 @@ class LightPainter {
   eval::Tolerance tolerance_;
   std::optional<eval::LightPlan> plan_;  // to that tolerance
   bool shadows_;                         // something may stand in the light's way
+  std::vector<std::uint8_t> pictured_;   // of a picture's light: pixels where nothing mirrors its detail
   std::vector<float> visible_, all_;     // pilot: light with and without shadows
   std::vector<Rgb> black_, slope_;       // unblocked light at the centres of smooth pixels, as Response
   std::vector<float> centre_bound_;      // what its error may be

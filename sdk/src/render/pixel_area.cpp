@@ -160,7 +160,7 @@ LightPainter::Measured LightPainter::smooth(std::uint32_t x, std::uint32_t y, do
   const Ray ray = camera_.through(x + 0.5, y + 0.5);
   Measured out{lighting_.emitted(light_, centre, ray), {}, 0, {}};
   if (beta <= 0 || thing == nullptr || thing->paint == nullptr || !light_.analytic) return out;
-  const bool cheap = light_.delta || std::holds_alternative<Lambert>(thing->paint->material.model);
+  const bool cheap = light_.delta || (light_.picture == nullptr && std::holds_alternative<Lambert>(thing->paint->material.model));
   // With g = |f_xx / f| the next terms are of the order g^2: g^2 / 340 here, g^2 / 4320 for the rule of 2 x 2.
   constexpr double steep = 0.1;
   const Rgb any_colour;
@@ -189,7 +189,7 @@ LightPainter::Measured LightPainter::split(std::uint32_t x, std::uint32_t y, con
     int nodes = 0;
   };
   std::map<std::uint32_t, Region> all;
-  const bool cheap = light_.delta || regions.only_lambert;
+  const bool cheap = light_.delta || (light_.picture == nullptr && regions.only_lambert);
   Measured out;
   const bool kinked = !regions.kinked.empty() && std::count(regions.kinks.begin(), regions.kinks.end(), light_.index) > 0;
   const auto& nodes = kinked ? regions.kinked : cheap ? regions.nodes : regions.coarse;

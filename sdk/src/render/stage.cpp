@@ -155,26 +155,28 @@ Status Stage::add_lights(const Scene& scene, const RenderOptions& options) {
   return Done{};
 }
 
-Result<eval::Emitter> Stage::emitter(const Scene& scene, const Light& light) {
-  return emitter_in(scene, light, [&](const Texture& texture) -> Result<std::shared_ptr<const DecodedImage>> {
+Result<PicturedEmitter> Stage::emitter(const Scene& scene, const Light& light, bool with_picture) {
+  const auto texture_of = [&](const Texture& texture) -> Result<std::shared_ptr<const DecodedImage>> {
     const Result<const DecodedImage*> decoded = image(scene, texture);
     if (!decoded) return decoded.error();
     return std::shared_ptr<const DecodedImage>(std::shared_ptr<const DecodedImage>{}, *decoded);  // the stage owns it
-  });
+  };
+  return emitter_in(scene, light, texture_of, with_picture);
 }
 
 Status Stage::add_light(const Scene& scene, std::uint32_t index, bool lit, const RenderOptions& options) {
   const Light& light = scene.lights[index];
-  Result<eval::Emitter> made = emitter(scene, light);
+  Result<PicturedEmitter> made = emitter(scene, light, lit);
   if (!made) return made.error();
   StageLight staged;
   staged.index = index;
-  staged.emitter = std::move(*made);
+  staged.emitter = std::move(made->emitter);
+  staged.picture = std::move(made->picture);
   if (options.mitsuba_model && options.mitsuba_parts == MitsubaParts::built_in) staged.emitter.window = {};
   staged.as_seen = staged.emitter;
   staged.as_seen.window = {};
   staged.delta = is_delta(staged.emitter.shape);
-  staged.analytic = is_analytic(staged.emitter);
+  staged.analytic = staged.picture != nullptr || is_analytic(staged.emitter);
   const auto* distant = std::get_if<eval::DistantEmitter>(&staged.emitter.shape);
   staged.background = std::holds_alternative<eval::EnvironmentEmitter>(staged.emitter.shape) || (distant != nullptr && !staged.delta);
   const auto* mesh = std::get_if<MeshShape>(&light.shape);

@@ -1,6 +1,7 @@
 // A scene made ready for rays: everything in the world, textures decoded, lights as emitters.
 #pragma once
 
+#include "emitters.h"
 #include "surface.h"
 
 #include "etendue/render.h"
@@ -24,9 +25,11 @@ struct StageLight {
   std::uint32_t thing = no_index;  // its visible shape
   std::optional<Ball> extent;      // of a sphere, disk, polygon or tube
   bool delta = false;              // one direction a point: punctual and true directions
-  bool analytic = true;            // eval::reference is exact and cheap enough; else sampled alone
-  bool convex = true;              // cannot hide a part of its own front from anybody
-  bool background = false;         // seen behind everything: an environment, or a sun with a disk
+  bool analytic = true;            // a LightPlan is exact and cheap enough; else sampled alone
+  // Of a picture: then it is so on surfaces without a narrow lobe.
+  std::shared_ptr<const eval::PictureMoments> picture = {};
+  bool convex = true;       // cannot hide a part of its own front from anybody
+  bool background = false;  // seen behind everything: an environment, or a sun with a disk
 };
 
 class Stage {
@@ -53,7 +56,7 @@ class Stage {
   Result<const DecodedImage*> image(const Scene& scene, const Texture& texture);
   Result<const Paint*> paint(const Scene& scene, std::uint32_t material, const RenderOptions& options);
   Thing& add_thing();
-  Result<eval::Emitter> emitter(const Scene& scene, const Light& light);
+  Result<PicturedEmitter> emitter(const Scene& scene, const Light& light, bool with_picture);
 
   struct Image {
     std::uint32_t index;
