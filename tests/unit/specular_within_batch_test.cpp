@@ -126,9 +126,28 @@ TEST(SpecularWithinBatch, PolygonsKeepTheTolerance) {
 TEST(SpecularWithinBatch, RoundLightsKeepTheTolerance) {
   for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
     keeps_the_tolerance(white(SphereEmitter{{0.3, -0.2, 0.1}, 0.45}), tolerance, 300);
+    keeps_the_tolerance(white(TubeEmitter{{-0.4, 0.1, 0}, {0.6, -0.2, 0.1}, 0.12, Caps::round}), tolerance, 300);
+    keeps_the_tolerance(white(TubeEmitter{{0, 0, 0}, {0.3, 0.3, 0.1}, 0.3, Caps::round}), tolerance, 150);
     keeps_the_tolerance(sun({0.3, 0.2, 0.5}, 0.05), tolerance, 150);
     keeps_the_tolerance(sun({0.3, 0.2, 0.5}, 0.0046), tolerance, 150);
   }
+}
+
+// Seen along its axis a tube is its nearer cap, a sphere.
+TEST(SpecularWithinBatch, TubesAlongTheirAxisAreSpheres) {
+  const Emitter tube = white(TubeEmitter{{0, 0, 1}, {0, 0, 3}, 0.4, Caps::round}), sphere = white(SphereEmitter{{0, 0, 1}, 0.4});
+  Views views;
+  for (int i = 0; i < 20; ++i)
+    views.add({0.02 * i - 0.2, 0.1, 0}, normalised(Vec3d{0.1 * i - 1, 0, 1}), normalised(Vec3d{0.1, 0.05 * i, 1}), 0.05 + 0.04 * i);
+  on_each_instruction_set([&] {
+    Answers of_tube(views.size()), of_sphere(views.size());
+    ASSERT_TRUE(SpecularWithinBatch::of(tube, 1e-4)->shares(views.points(), of_tube.to(), -1));
+    ASSERT_TRUE(SpecularWithinBatch::of(sphere, 1e-4)->shares(views.points(), of_sphere.to(), -1));
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      EXPECT_GT(of_sphere.value(i, 1), 0) << i;
+      EXPECT_NEAR(of_tube.value(i, 1), of_sphere.value(i, 1), of_tube.bound(i, 1) + of_sphere.bound(i, 1)) << i;
+    }
+  });
 }
 
 // So many sides that the lists hold the cells of a few points: a disk but for 2 pi^2 / (3 n^2) of its area, 3e-5.
@@ -201,6 +220,7 @@ TEST(SpecularWithinBatch, SaysWhatItDoesNotTake) {
   EXPECT_EQ(SpecularWithinBatch::of(light, std::numeric_limits<double>::quiet_NaN()).error().code, "TOLERANCE_OUT_OF_RANGE");
   EXPECT_EQ(SpecularWithinBatch::of(white(DiskEmitter{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, 0.3}), 1e-3).error().code, "METHOD_SHAPE");
   EXPECT_EQ(SpecularWithinBatch::of(sun({0, 0, 1}, 0), 1e-3).error().code, "METHOD_SHAPE");
+  EXPECT_EQ(SpecularWithinBatch::of(white(TubeEmitter{{0, 0, 1}, {1, 0, 1}, 0.1, Caps::flat}), 1e-3).error().code, "METHOD_SHAPE");
   EXPECT_EQ(SpecularWithinBatch::of(light, 1e-3, Masking::schlick_direct).error().code, "METHOD_LOBE");
   Emitter windowed = light;
   windowed.window = {Falloff::gltf, 3};

@@ -1,5 +1,5 @@
-// The specular light of one polygon, sphere or sun at many points to an asked tolerance, on the best instruction set that the machine has:
-// round GGX with Schlick's Fresnel, the integral of specular_light.h with its cells in vectors.
+// The specular light of one polygon, sphere, sun or tube with round caps at many points to an asked tolerance, on the best instruction set
+// that the machine has: round GGX with Schlick's Fresnel, the integral of specular_light.h with its cells in vectors.
 //   const Result<SpecularWithinBatch> batch = SpecularWithinBatch::of(emitter, 1e-3);
 //   BatchOutcome done = batch->shares({points, vx, vy, vz, alpha}, {of_f0, of_f90, bound_f0, bound_f90}, 0);
 //   luminance = batch->scale() * (f0 * of_f0[i] + f90 * of_f90[i]);   // cd/m2 towards the view, in any colour of f0
@@ -27,7 +27,8 @@ class SpecularWithinBatch {
 
   // |error| <= tolerance max(value, 1e-3 E L, least) as for specular_luminance, wherever f0 is least_f0 f90 or more and no more than f90;
   // `least` in cd/m2. Masking is correlated or separable.
-  // Errors: METHOD_SHAPE: no uniform polygon, sphere or sun without a window; METHOD_LOBE: other masking; TOLERANCE_OUT_OF_RANGE.
+  // Errors: METHOD_SHAPE: no uniform polygon, sphere, sun or tube with round caps without a window; METHOD_LOBE: other masking;
+  // TOLERANCE_OUT_OF_RANGE.
   static Result<SpecularWithinBatch> of(const Emitter& emitter, double tolerance, Masking masking = Masking::correlated, double least = 0);
 
   // Points that a rectangle is far from take a few places of it (far_luminance.h), most others cells of floats; where a float has too few

@@ -32,6 +32,10 @@ std::optional<OutlinedLight> outlined(const Emitter& emitter) {
     light.shape = BallSeen{sphere->centre, sphere->radius};
     return light;
   }
+  if (const auto* tube = std::get_if<TubeEmitter>(&emitter.shape); tube != nullptr && tube->caps == Caps::round && tube->radius > 0) {
+    light.shape = CapsuleSeen{tube->a, tube->b, tube->radius};
+    return light;
+  }
   if (const auto* sun = std::get_if<DistantEmitter>(&emitter.shape); sun != nullptr && sun->radius_rad > 0 && sun->radius_rad < 0.5 * pi) {
     light.shape = CapSeen{sun->towards, std::cos(sun->radius_rad), std::sin(sun->radius_rad)};
     return light;
@@ -44,11 +48,13 @@ OutlinedLight OutlinedLight::seen_from(const Vec3d& origin) const {
   if (auto* polygon = std::get_if<CornersSeen>(&light.shape))
     for (Vec3d& corner : polygon->corners) corner = corner - origin;
   if (auto* ball = std::get_if<BallSeen>(&light.shape)) ball->centre = ball->centre - origin;
+  if (auto* tube = std::get_if<CapsuleSeen>(&light.shape)) tube->a = tube->a - origin, tube->b = tube->b - origin;
   return light;
 }
 
 void lay_sides(const OutlinedLight& light, const PlaceBlock& places, std::size_t count, SideBlock& block) {
   if (std::holds_alternative<CornersSeen>(light.shape)) return lay_polygon_sides(light, places, count, block);
+  if (std::holds_alternative<CapsuleSeen>(light.shape)) return lay_arc_sides(light, places, count, block);
   lay_round_sides(light, places, count, block);
 }
 

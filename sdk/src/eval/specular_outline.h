@@ -1,5 +1,6 @@
 // Lights whose outlines are made of circles of directions, and their sides at many points: what the kernels of
-// specular_polygon_sides_batch.cpp and specular_round_sides_batch.cpp lay out, and specular_cells_batch.cpp integrates from.
+// specular_polygon_sides_batch.cpp, specular_round_sides_batch.cpp and specular_arc_sides_batch.cpp lay out, and specular_cells_batch.cpp
+// integrates from.
 #pragma once
 
 #include "specular_cells.h"
@@ -25,8 +26,12 @@ struct CapSeen {  // of directions, the same everywhere
   Vec3d axis;
   double cosine, sine;
 };
+struct CapsuleSeen {
+  Vec3d a, b;  // centres of the round caps
+  double radius;
+};
 struct OutlinedLight {
-  std::variant<CornersSeen, BallSeen, CapSeen> shape;
+  std::variant<CornersSeen, BallSeen, CapSeen, CapsuleSeen> shape;
   bool two_sided = false;
   bool separable = false;  // masking; else height-correlated
   double least = 0;        // of the floor below which errors are not relative to the value
@@ -46,5 +51,6 @@ void lay_sides(const OutlinedLight& light, const PlaceBlock& places, std::size_t
 // Kernels of one shape each.
 void lay_polygon_sides(const OutlinedLight& light, const PlaceBlock& places, std::size_t count, SideBlock& block);
 void lay_round_sides(const OutlinedLight& light, const PlaceBlock& places, std::size_t count, SideBlock& block);
+void lay_arc_sides(const OutlinedLight& light, const PlaceBlock& places, std::size_t count, SideBlock& block);
 
 }  // namespace etendue::eval

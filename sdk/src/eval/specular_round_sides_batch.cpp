@@ -73,8 +73,9 @@ void LayRoundSides(const OutlinedLight& light, const PlaceBlock& places, std::si
       return wide_unit(place);
     };
     layer.lay(arcs, WideSide{end(s), end(hn::Neg(s)), hn::And(seen, cut)});
-    // A circle that is small beside the digits of its directions is not known well.
-    layer.doubtful = hn::Or(hn::Or(layer.doubtful, cap.doubtful), hn::And(seen, hn::Lt(cap.sine, wide(1e-5))));
+    // Of a circle that is small beside the digits of its directions little is known, and of a sliver of one.
+    const WideMask thin = hn::And(cut, hn::Lt(hn::Add(centre.z, up.z), hn::Mul(wide(5e-3), cap.sine)));
+    layer.doubtful = hn::Or(layer.doubtful, hn::Or(cap.doubtful, hn::And(seen, hn::Or(thin, hn::Lt(cap.sine, wide(1e-5))))));
     const Wide to_mirror = hn::MulSub(axis.z, points.view.z, hn::Mul(axis.x, points.view.x));
     layer.finish(light, seen, hn::Gt(to_mirror, cap.cosine));
   }

@@ -251,7 +251,7 @@ std::size_t points_of(const OutlinedLight& light) {
 
 CellPlan plan_for(const OutlinedLight& light, double tolerance) {
   // Places of a great circle share their roundings, those of a smaller one have each its own.
-  const float most_cancelled = std::holds_alternative<CornersSeen>(light.shape) ? 64 : 16;
+  const float most_cancelled = std::holds_alternative<CornersSeen>(light.shape) ? 64 : tolerance >= 5e-4 ? 16 : 8;
 
   // Facets may send four times as much of the light elsewhere as at the middle of the lobe (specular_light.cpp).
   return {tolerance, static_cast<float>(neglected * tolerance / 4), most_cancelled, FarOrders(tolerance)};
@@ -267,7 +267,8 @@ Result<SpecularWithinBatch> SpecularWithinBatch::of(const Emitter& emitter, doub
   if (masking != Masking::correlated && masking != Masking::separable)
     return Error{"METHOD_LOBE", "expected height-correlated or separable masking", {}, {}, {}};
   std::optional<OutlinedLight> outline = is_uniform_area_light(emitter) ? outlined(emitter) : std::nullopt;
-  if (!outline) return Error{"METHOD_SHAPE", "expected a uniform polygon, sphere or sun without a window", {}, {}, {}};
+  if (!outline)
+    return Error{"METHOD_SHAPE", "expected a uniform polygon, sphere, sun or tube with round caps without a window", {}, {}, {}};
   const Rgb luminance = luminance_of(emitter);
   const double brightest = std::max({luminance.x, luminance.y, luminance.z});
   outline->separable = masking == Masking::separable;
