@@ -177,6 +177,36 @@ TEST(Ltc, TwoLobesFollowRoundLights) {
   }
 }
 
+// Mirrors of f0 = f90 = 1 are as by `ltc`; towards a small light Schlick's term is what it is there, for any f90. On a thousand rectangles
+// the error for f0 = .04 is .045, that of `ltc` .093.
+TEST(Ltc, FresnelAtOneDirection) {
+  Random random(23);
+  double error = 0, averaged = 0, sum = 0;
+  for (int i = 0; i < 600; ++i) {
+    const Placement p = place(Kind::rect, random, i % 2 == 0);
+    const LightSample s = sample_light(p.emitter, p.position, random.square());
+    Vec3d view = i % 4 < 2 ? p.normal * (2 * dot(p.normal, s.direction)) - s.direction : random.direction();
+    if (dot(view, p.normal) < 0) view = -view;
+    if (dot(view, p.normal) < 0.05) continue;
+    ShadingPoint point{p.position, p.normal, p.normal, view, GgxLobe{random.log_uniform(0.01, 1), {1, 1, 1}}};
+    EXPECT_NEAR(through("ltc-fresnel", p.emitter, point), through("ltc", p.emitter, point), 1e-9);
+    std::get<GgxLobe>(point.brdf).f0 = {0.04, 0.04, 0.04};
+    const double exact = reference(p.emitter, point, {1e-4, 1e-8}).value.x;
+    error += std::abs(through("ltc-fresnel", p.emitter, point) - exact), averaged += std::abs(through("ltc", p.emitter, point) - exact);
+    sum += exact;
+  }
+  EXPECT_LT(error, 0.056 * sum);
+  EXPECT_LT(error, 0.7 * averaged);
+  const Vec3d l = normalised(Vec3d{-0.9, 0.3, 0.4}), view = view_of(0.3);
+  const Emitter small = white(SphereEmitter{l * 10.0, 0.01});
+  ShadingPoint point = surface(0.5, view);
+  const double mirror = through("ltc-fresnel", small, point), weight = std::pow(1 - dot(view, normalised(view + l)), 5);
+  for (const double f90 : {1.0, 0.5}) {
+    point.brdf = GgxLobe{0.5, {0.04, 0.04, 0.04}, f90};
+    EXPECT_NEAR(through("ltc-fresnel", small, point), mirror * (0.04 + (f90 - 0.04) * weight), 1e-5 * mirror);
+  }
+}
+
 // Where the transformed light is a cap itself nothing is lost: lights about the axis of a view along the normal, the steep lobe of which is
 // round. And a cap that the plane through its axis cuts has half of what is along the axis.
 TEST(Ltc, CapsAreExactWhereTheLightIsOne) {
@@ -290,7 +320,7 @@ TEST(Ltc, NoLightGivesMoreThanItsLuminance) {
     if (dot(view, p.normal) < 0) view = -view;
     const double f0 = i % 3 == 0 ? 0.04 : 1;
     const ShadingPoint point{p.position, p.normal, p.normal, view, GgxLobe{random.log_uniform(1e-4, 1), {f0, f0, f0}}};
-    for (const std::string_view name : {"ltc-four-terms", "ltc-unclipped", "ltc", "ltc-two-lobes"}) {
+    for (const std::string_view name : {"ltc-four-terms", "ltc-unclipped", "ltc", "ltc-fresnel", "ltc-two-lobes"}) {
       const double value = through(name, p.emitter, point);
       EXPECT_TRUE(value >= 0 && value <= 1) << i << " " << name << " " << value;
     }

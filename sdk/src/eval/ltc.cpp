@@ -1,6 +1,7 @@
 // Linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt 2016): the table, and lights seen through it.
 #include "etendue/ltc.h"
 
+#include "fresnel.h"
 #include "hill_heitz.h"
 #include "illuminance.h"
 #include "specular_view.h"
@@ -107,12 +108,20 @@ struct Covered {
     const Transform linear = through(local);
     const auto* polygon = std::get_if<PolygonEmitter>(&emitter.shape);
     if (polygon != nullptr && !(horizons.distinct && real_horizon)) return covered(*polygon, local, linear);
-    double sum = 0;
+    return std::max(irradiance(local, horizons, linear).z, 0.0);
+  }
+  // The integral of the directions that the light covers there: its z is the answer above, and it leads to the light's middle.
+  Vec3d irradiance(const LocalFrame& local, const Horizons& horizons, const Transform& linear) const {
+    Vec3d sum;
     each_outline(emitter, local, [&](const Contour& outline, std::size_t) {
       const Contour seen = transformed(real_horizon ? clipped(outline, horizons) : outline, linear);
-      sum += direction_integral(clipped(seen, Vec3d{0, 0, 1})).z;
+      sum += direction_integral(clipped(seen, Vec3d{0, 0, 1}));
     });
-    return std::max(sum, 0.0);
+    return sum;
+  }
+  Vec3d irradiance() const {
+    const LocalFrame local(point.position, point.normal);
+    return irradiance(local, horizons_of(local, point.normal, point.surface_normal), through(local));
   }
   // Of a cap, cut at the surface's horizon alone: below its own horizon the cosine counts as negative, which is little where a lobe is, and
   // nearer on the mean than none. Nothing once all of the light is below the surface's horizon.
@@ -142,7 +151,21 @@ struct Covered {
   }
 };
 
-enum class Form { four_terms, published, one_cosine, two_cosines, two_caps };
+// One cosine, Schlick's term at one direction: that of the vector irradiance, brought back from the cosine's space.
+Rgb at_representative(const Covered& light, const LtcLobe& fit, const GgxLobe& lobe) {
+  const Vec3d irradiance = light.irradiance();
+  if (!(irradiance.z > 0)) return {};
+  // Cramer's rule, but for the determinant, which is positive.
+  const auto& [a, b, c] = light.cosine.inverse.columns;
+  const Vec3d l = normalised(Vec3d{dot(cross(b, c), irradiance), dot(cross(c, a), irradiance), dot(cross(a, b), irradiance)});
+  const Vec3d v = light.frame.vector(light.point.view);
+  const Vec3d half = v + l;
+  const double weight = schlick_weight(dot(v, half) / std::max(length(half), 1e-12));
+  const double share = std::min(irradiance.z / (pi * light.cosine.share_above()), 1.0) * fit.albedo;
+  return lobe.f0 * (share * (1 - weight)) + Rgb{1, 1, 1} * (share * lobe.f90 * weight);
+}
+
+enum class Form { four_terms, published, one_cosine, representative, two_cosines, two_caps };
 
 std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& point, Form form) {
   const std::optional<GgxLobe> lobe = correlated_ggx(point.brdf);
@@ -153,6 +176,7 @@ std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& poi
   if (form == Form::four_terms) fit.whole = four_term_cosine(lobe->alpha, frame.cosine);
   const bool published = form == Form::four_terms || form == Form::published;
   const bool two = form == Form::two_cosines || form == Form::two_caps;
+  if (form == Form::representative) return luminance_of(emitter) * at_representative({emitter, point, frame, fit.whole, true}, fit, *lobe);
   const auto share = [&](const TransformedCosine& cosine) {
     const Covered light{emitter, point, frame, cosine, !published};
     if (form == Form::two_caps) return light.share_as_cap();
@@ -183,6 +207,9 @@ constexpr SpecularMethod methods[] = {
      luminance<Form::published>},
     {"ltc", article, "The light is cut at the surface's horizon first, and the cosine is one for what is above it.",
      luminance<Form::one_cosine>},
+    {"ltc-fresnel", article,
+     "The same, with Schlick's Fresnel at the direction of what the light covers of the cosine, instead of averaged over the lobe.",
+     luminance<Form::representative>},
     {"ltc-two-lobes", article,
      "The same, with one cosine for the part of the lobe that Fresnel's term weighs with f0 and one for that with f90.",
      luminance<Form::two_cosines>},
