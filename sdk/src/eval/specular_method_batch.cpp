@@ -1,5 +1,5 @@
 // Published methods for specular light at many points: each is a direction towards the light, a factor, and the alpha that D has there.
-// What they are, and where they err: karis.cpp, drobot.cpp, eden.cpp, specular_methods.cpp.
+// What they are, and where they err: karis.cpp, drobot.cpp, eden.cpp, covered.cpp.
 #include "etendue/specular_method_batch.h"
 
 #include "batch_error.h"
@@ -68,8 +68,6 @@ HWY_INLINE SmallLight small_light(const PlacedDisk& disk, const Vector3& positio
   }
 }
 
-HWY_INLINE Vector3 centre_of(const PlacedSphere& sphere, const Vector3& position) { return towards(Floats(), sphere.centre, position); }
-HWY_INLINE Vector3 centre_of(const PlacedSun& sun, const Vector3&) { return numbers(Floats(), sun.towards); }
 // A sun is a sphere at the distance 1.
 template <PublishedRule rule, class Ball>
 HWY_INLINE SmallLight small_light(const Ball& ball, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
@@ -165,17 +163,18 @@ std::size_t by_rule(PublishedRule rule, const Placed& light, const SpecularPoint
 }
 using enum PublishedRule;
 std::size_t OverPublishedRect(PublishedRule rule, const PlacedRect& light, const SpecularPoints& points, Of of_f0, Of of_f90, float none) {
-  return by_rule<punctual, covered_lobe, drobot_20, drobot_20_fitted>(rule, light, points, of_f0, of_f90, none);
+  return by_rule<punctual, covered_lobe, covered_strip, drobot_20, drobot_20_fitted>(rule, light, points, of_f0, of_f90, none);
 }
 std::size_t OverPublishedDisk(PublishedRule rule, const PlacedDisk& light, const SpecularPoints& points, Of of_f0, Of of_f90, float none) {
-  return by_rule<punctual, covered_lobe, drobot_20, drobot_20_fitted>(rule, light, points, of_f0, of_f90, none);
+  return by_rule<punctual, covered_lobe, covered_strip, drobot_20, drobot_20_fitted>(rule, light, points, of_f0, of_f90, none);
 }
 std::size_t OverPublishedSphere(PublishedRule rule, const PlacedSphere& light, const SpecularPoints& points, Of of_f0, Of of_f90,
                                 float none) {
-  return by_rule<punctual, covered_lobe, drobot_20, karis_10, karis_11, karis_14, eden_sphere>(rule, light, points, of_f0, of_f90, none);
+  return by_rule<punctual, covered_lobe, covered_strip, drobot_20, karis_10, karis_11, karis_14, eden_sphere>(rule, light, points, of_f0,
+                                                                                                              of_f90, none);
 }
 std::size_t OverPublishedSun(PublishedRule rule, const PlacedSun& light, const SpecularPoints& points, Of of_f0, Of of_f90, float none) {
-  return by_rule<punctual, covered_lobe, drobot_20, karis_10, karis_11, karis_14>(rule, light, points, of_f0, of_f90, none);
+  return by_rule<punctual, covered_lobe, covered_strip, drobot_20, karis_10, karis_11, karis_14>(rule, light, points, of_f0, of_f90, none);
 }
 std::size_t OverPublishedTube(PublishedRule rule, const PlacedTube& light, const SpecularPoints& points, Of of_f0, Of of_f90, float none) {
   return by_rule<punctual, covered_lobe, covered_strip, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended>(
@@ -213,16 +212,18 @@ bool takes(PublishedRule rule) {
   using enum PublishedRule;
   const auto is = [rule](std::initializer_list<PublishedRule> some) { return std::find(some.begin(), some.end(), rule) != some.end(); };
   if constexpr (std::is_same_v<Shape, SphereView>)
-    return is({punctual, covered_lobe, drobot_20, karis_10, karis_11, karis_14, eden_sphere, frostbite_point, frostbite_16, karis_cone});
+    return is({punctual, covered_lobe, covered_strip, drobot_20, karis_10, karis_11, karis_14, eden_sphere, frostbite_point, frostbite_16,
+               karis_cone});
   else if constexpr (std::is_same_v<Shape, SunView>)
-    return is({punctual, covered_lobe, drobot_20, karis_10, karis_11, karis_14, frostbite_6, karis_cone});
+    return is({punctual, covered_lobe, covered_strip, drobot_20, karis_10, karis_11, karis_14, frostbite_6, karis_cone});
   else if constexpr (std::is_same_v<Shape, TubeView>)
     return is({punctual, covered_lobe, covered_strip, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended,
                frostbite_point, frostbite_16, ltc_line, ltc_line_ends});
   else if constexpr (std::is_same_v<Shape, RectView>)
-    return is({punctual, covered_lobe, drobot_20, drobot_20_fitted, frostbite_point, frostbite_16, eden_rect, karis_billboard});
+    return is(
+        {punctual, covered_lobe, covered_strip, drobot_20, drobot_20_fitted, frostbite_point, frostbite_16, eden_rect, karis_billboard});
   else
-    return is({punctual, covered_lobe, drobot_20, drobot_20_fitted, frostbite_point, frostbite_16});
+    return is({punctual, covered_lobe, covered_strip, drobot_20, drobot_20_fitted, frostbite_point, frostbite_16});
 }
 
 // Flat lights from in front.
@@ -252,7 +253,7 @@ class SpecularMethodBatch::Light {
             Direction(rect.normal),      single(rect.half_x), single(rect.half_y)};
   }
   static PlacedDisk placed(const DiskView& disk, const Vec3d& origin) {
-    return {Place(disk.centre - origin), Direction(disk.normal), single(disk.radius)};
+    return {Place(disk.centre - origin), Direction(disk.normal), Direction(basis_around(disk.normal).tangent), single(disk.radius)};
   }
   static PlacedSphere placed(const SphereView& sphere, const Vec3d& origin) {
     return {Place(sphere.centre - origin), single(sphere.radius)};

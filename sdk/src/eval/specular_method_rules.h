@@ -44,7 +44,7 @@ struct PlacedRect {
 };
 struct PlacedDisk {
   Place centre;
-  Direction normal;
+  Direction normal, x;  // x: some direction in its plane
   float radius;
 };
 struct PlacedSphere {

@@ -70,5 +70,6 @@ std::span<const SpecularMethod> karis_specular_methods();
 std::span<const SpecularMethod> eden_specular_methods();
 std::span<const SpecularMethod> hill_heitz_specular_methods();
 std::span<const SpecularMethod> ltc_methods();
+std::span<const SpecularMethod> covered_specular_methods();
 
 }  // namespace etendue::eval
