@@ -124,7 +124,9 @@ Emitter light_of(std::optional<Kind> kind) {
   if (!kind) return sun(sun_towards, 0.53 / 2 * pi / 180);
   if (*kind == Kind::sphere) return white(SphereEmitter{{}, 0.5});
   if (*kind == Kind::star) return white(star({}, {1, 0, 0}, {0, 1, 0}, 1.2, 0.8, 5, 0.5));
-  if (*kind == Kind::capsule) return white(TubeEmitter{{-0.5, 0, 0}, {0.5, 0, 0}, 0.1, Caps::round});
+  if (*kind == Kind::disk) return white(DiskEmitter{{}, {0, 0, 1}, {1, 0, 0}, 0.5});
+  const Caps caps = *kind == Kind::capsule ? Caps::round : *kind == Kind::flat_tube ? Caps::flat : Caps::none;
+  if (*kind != Kind::rect) return white(TubeEmitter{{-0.5, 0, 0}, {0.5, 0, 0}, 0.1, caps});
   return white(rectangle({}, {1, 0, 0}, {0, 1, 0}, 1.2, 0.8));
 }
 Views views_around(const Emitter& light, Random& random, bool grazing) {
@@ -171,8 +173,14 @@ int main(int argc, char** argv) {
   const int configurations = argc > 1 ? std::atoi(argv[1]) : 20000;
   const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   const std::string_view only = argc > 3 ? argv[3] : "";
-  const std::array<std::pair<std::optional<Kind>, const char*>, 5> shapes{
-      {{Kind::rect, "rect"}, {Kind::star, "star"}, {Kind::sphere, "sphere"}, {std::nullopt, "sun"}, {Kind::capsule, "tube"}}};
+  const std::array<std::pair<std::optional<Kind>, const char*>, 8> shapes{{{Kind::rect, "rect"},
+                                                                           {Kind::star, "star"},
+                                                                           {Kind::sphere, "sphere"},
+                                                                           {std::nullopt, "sun"},
+                                                                           {Kind::capsule, "tube"},
+                                                                           {Kind::disk, "disk"},
+                                                                           {Kind::flat_tube, "flat-tube"},
+                                                                           {Kind::open_tube, "open-tube"}}};
   for (const auto& [kind, name] : shapes) {
     if (!only.empty() && only != name) continue;
     for (const double tolerance : {1e-2, 1e-3, 1e-4}) {

@@ -27,7 +27,7 @@ Light with_luminance(Shape shape, double luminance, const Transform& transform) 
 }
 Transform facing_down(const Vec3d& position) { return {{Vec3d{1, 0, 0}, Vec3d{0, 0, -1}, Vec3d{0, 1, 0}}, position}; }
 
-// A rectangle and a sphere in cells, a far one of each by a few places, a disk one by one. Nothing stands in their way.
+// A rectangle, a sphere and a disk in cells, two of them far away too, by a few places. Nothing stands in their way.
 TEST(RenderPlan, PicturesKeepTheTolerance) {
   Scene scene;
   Object floor;

@@ -28,7 +28,7 @@ struct LightWithin {
 //   adaptive   GGX under area lights: specular_luminance
 //   two lobes  Standard, MetalRough and TwoColour under area lights: half the tolerance for each lobe, GGX as above and `reference` of the
 //              diffuse one alone, which has no peak
-//   cells      either, with GGX in vectors (specular_within_batch.h): not disks nor flat caps; many points, from 1e-4 (two lobes: 2e-4) on
+//   cells      either, with GGX in vectors (specular_within_batch.h): not meshes; many points, from 1e-4 (two lobes: 2e-4) on
 //   picture    a rectangle with a picture whose moments are given (picture_light.h), where its cells are enough
 //   reference  all else
 // No approximation with a fixed error is among them: `moments` is further off than .1 in a sixth of the configurations of

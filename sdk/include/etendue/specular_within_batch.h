@@ -1,4 +1,4 @@
-// The specular light of one polygon, sphere, sun or tube with round caps at many points to an asked tolerance, on the best instruction set
+// The specular light of one polygon, sphere, disk, sun or tube at many points to an asked tolerance, on the best instruction set
 // that the machine has: round GGX with Schlick's Fresnel, the integral of specular_light.h with its cells in vectors.
 //   const Result<SpecularWithinBatch> batch = SpecularWithinBatch::of(emitter, 1e-3);
 //   BatchOutcome done = batch->shares({points, vx, vy, vz, alpha}, {of_f0, of_f90, bound_f0, bound_f90}, 0);
@@ -27,7 +27,7 @@ class SpecularWithinBatch {
 
   // |error| <= tolerance max(value, 1e-3 E L, least) as for specular_luminance, wherever f0 is least_f0 f90 or more and no more than f90;
   // `least` in cd/m2. Masking is correlated or separable.
-  // Errors: METHOD_SHAPE: no uniform polygon, sphere, sun or tube with round caps without a window; METHOD_LOBE: other masking;
+  // Errors: METHOD_SHAPE: no uniform polygon, sphere, disk, sun or tube without a window; METHOD_LOBE: other masking;
   // TOLERANCE_OUT_OF_RANGE.
   static Result<SpecularWithinBatch> of(const Emitter& emitter, double tolerance, Masking masking = Masking::correlated, double least = 0);
 

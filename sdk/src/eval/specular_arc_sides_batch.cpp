@@ -16,7 +16,7 @@ namespace {
 void LayArcSides(const OutlinedLight& light, const ArcTable& table, const PlaceBlock& places, std::size_t count, SideBlock& block) {
   const Doubles d;
   const Wide zero = wide(0);
-  block.make_room(table.arcs, ArcTable::along_horizon);
+  block.make_room(table.arcs, ArcTable::along_horizon, table.rims);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const WidePoints points(places, i);
     SideLayer layer(points, block, i);
@@ -25,7 +25,12 @@ void LayArcSides(const OutlinedLight& light, const ArcTable& table, const PlaceB
       const auto load = [&](std::size_t k) ETENDUE_INLINE_LAMBDA { return hn::LoadU(d, table.arc[k].data() + index * points_at_once + i); };
       const auto vector = [&](std::size_t k) ETENDUE_INLINE_LAMBDA { return Wide3{load(k), load(k + 1), load(k + 2)}; };
       const Wide reach = load(ArcTable::reach);
-      layer.lay(side, WideArc{vector(ArcTable::centre_x), vector(ArcTable::u_x), vector(ArcTable::v_x), reach, hn::Gt(reach, wide(1e-6))});
+      const WideArc arc{vector(ArcTable::centre_x), vector(ArcTable::u_x), vector(ArcTable::v_x), reach, hn::Gt(reach, wide(1e-9))};
+      if (table.rims) {
+        layer.lay_rim(side, arc);
+      } else {
+        layer.lay(side, arc);
+      }
     }
     layer.illuminance = hn::LoadU(d, table.illuminance.data() + i);
     const auto marked = [&](const std::array<bool, points_at_once>& marks) {

@@ -15,44 +15,71 @@ bool along_horizon(const Arc& arc) { return arc.great_circle() && std::abs(arc.u
 // What is above the horizon of z of the light's outline, in the point's own frame, and whether the ray along `mirror` meets the light.
 struct Seen {
   Contour lit;
-  bool inside;
+  bool inside = false, doubtful = false;
 };
-Seen seen_from(const CapsuleSeen& tube, const Vec3d& position, const ViewFrame& frame, const Vec3d& mirror) {
-  const Vec3d a = frame.vector(tube.a - position), b = frame.vector(tube.b - position);
-  const Contour outline = tube_silhouette(a, b, tube.radius, Caps::round);
-  if (outline.empty()) return {};
-  return {clipped(outline, Vec3d{0, 0, 1}), hit_tube({a, b, tube.radius, Caps::round}, Vec3d{}, mirror).has_value()};
+struct SeenFrom {
+  const Vec3d& position;
+  const ViewFrame& frame;
+  const Vec3d& mirror;
+  bool two_sided;
+
+  Seen operator()(const DiskSeen& disk) const {
+    const Vec3d centre = frame.vector(disk.centre - position), normal = frame.vector(disk.normal);
+    const Contour outline = disk_silhouette(centre, normal, disk.radius, two_sided);
+    if (outline.empty()) return {};
+    return {clipped(outline, up), hit_disk(centre, normal, disk.radius, Vec3d{}, mirror).has_value()};
+  }
+  // From within a tube that emits there too all of the sky is lit.
+  Seen operator()(const TubeSeen& tube) const {
+    const Vec3d a = frame.vector(tube.a - position), b = frame.vector(tube.b - position);
+    const Contour outline = tube_silhouette(a, b, tube.radius, tube.caps);
+    if (outline.empty()) return {{}, false, two_sided && inside_tube(a, b, tube.radius, tube.caps)};
+    return {clipped(outline, up), hit_tube({a, b, tube.radius, tube.caps}, Vec3d{}, mirror).has_value()};
+  }
+  template <class Other>
+  Seen operator()(const Other&) const {
+    return {};
+  }
+
+ private:
+  static constexpr Vec3d up{0, 0, 1};
+};
+
+bool has_rims(const OutlinedLight& light) {
+  const auto* tube = std::get_if<TubeSeen>(&light.shape);
+  return tube == nullptr || tube->caps != Caps::round;
 }
 
 }  // namespace
 
 void ArcTable::put(std::size_t index, std::size_t point, const Arc& part) {
   const double middle = 0.5 * (part.begin + part.end), cs = std::cos(middle), sn = std::sin(middle);
-  const Vec3d u = part.u * cs + part.v * sn, v = part.v * cs - part.u * sn;
-  const std::array<double, numbers> all{part.centre.x, part.centre.y, part.centre.z, u.x, u.y,
-                                        u.z,           v.x,           v.y,           v.z, std::tan(0.25 * (part.end - part.begin))};
+  const double size = part.unit ? 1 : 1 / std::max(length(part.centre), length(part.u));
+  const Vec3d centre = part.centre * size, u = (part.u * cs + part.v * sn) * size, v = (part.v * cs - part.u * sn) * size;
+  const std::array<double, numbers> all{centre.x, centre.y, centre.z, u.x, u.y,
+                                        u.z,      v.x,      v.y,      v.z, std::tan(0.25 * (part.end - part.begin))};
   for (std::size_t k = 0; k < numbers; ++k) arc[k][index * points_at_once + point] = all[k];
 }
 
 void fill_arcs(const OutlinedLight& light, const PlaceBlock& places, std::size_t count, ArcTable& table) {
-  const CapsuleSeen& tube = *std::get_if<CapsuleSeen>(&light.shape);
   constexpr std::size_t all_arcs = ArcTable::most_arcs + ArcTable::along_horizon;
   for (std::vector<double>& numbers : table.arc) numbers.resize(all_arcs * points_at_once);
   std::fill(table.arc[ArcTable::reach].begin(), table.arc[ArcTable::reach].end(), 0.0);
   table.illuminance.fill(0), table.inside.fill(false), table.doubtful.fill(false);
-  table.arcs = 0;
+  table.arcs = 0, table.rims = has_rims(light);
   for (std::size_t i = 0; i < count; ++i) {
     const auto at = [&](std::size_t k) { return Vec3d{places.numbers[k][i], places.numbers[k + 1][i], places.numbers[k + 2][i]}; };
     const Vec3d position = at(0), normal = normalised(at(3)), view = normalised(at(6));
     if (!(dot(normal, view) > 0) || !(dot(position, position) < 1e200)) continue;
     const ViewFrame frame(normal, view);
     const Vec3d local_view = frame.vector(view);
-    const Seen seen = seen_from(tube, position, frame, {-local_view.x, -local_view.y, local_view.z});
-    table.illuminance[i] = direction_integral(seen.lit).z, table.inside[i] = seen.inside;
+    const Vec3d mirror{-local_view.x, -local_view.y, local_view.z};
+    const Seen seen = std::visit(SeenFrom{position, frame, mirror, light.two_sided}, light.shape);
+    table.illuminance[i] = direction_integral(seen.lit).z, table.inside[i] = seen.inside, table.doubtful[i] = seen.doubtful;
     std::size_t arcs = 0, level = 0;
     for (const Arc& arc : seen.lit) {
       const bool horizon = along_horizon(arc);
-      const int parts = std::max(1, static_cast<int>(std::ceil((arc.end - arc.begin) / (0.5 * pi) - 1e-9)));
+      const int parts = std::max(1, static_cast<int>(std::ceil((arc.end - arc.begin) / ((arc.unit ? 0.5 : 0.25) * pi) - 1e-9)));
       const double span = (arc.end - arc.begin) / parts;
       for (int k = 0; k < parts; ++k) {
         Arc part = arc;

@@ -17,6 +17,7 @@ struct ArcTable {
   enum Number { centre_x, centre_y, centre_z, u_x, u_y, u_z, v_x, v_y, v_z, reach, numbers };
   static constexpr std::size_t most_arcs = 16, along_horizon = 2;  // these come after all others
   std::size_t arcs = 0;                                            // along the light, of the point that has most
+  bool rims = false;                                               // some are circles in space, of a size of about 1
   std::array<std::vector<double>, numbers> arc;                    // (most_arcs + along_horizon) * points_at_once
   std::array<double, points_at_once> illuminance;                  // of a luminance of 1
   std::array<bool, points_at_once> inside, doubtful;               // the middle of the lobe is within the light

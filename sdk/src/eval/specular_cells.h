@@ -21,18 +21,24 @@ struct PlaceBlock {
 // Sides of the lights of a block as arcs about the place tau = 0 where they are nearest to the middle of the lobe (lobe_cells.h). With
 // q = (x, y) / z, x = x0 + x1 tau + x2 tau^2 and so on, and q x dq/dtau = (turn0 + turn1 tau + turn2 tau^2) / z^2. `begin` and `end` are
 // tau there, and the same of a side that is not seen. `lowest`: n.l of its lower end; `rim`: 1 - p of the end that is farther out.
+// The rim of a disk is a circle in space, b = c + u cos s + v sin s of any length. b (1 + tau^2) is a quadratic, and so is b^2 (1 + tau^2)
+// but for another 1 + tau^2: of h' = v |b| + b, times 1 + tau^2, the first part is v times a root of the fourth degree. It is W + r,
+//     W = w0 + w1 tau + w2 tau^2,   r = tau^3 (w3 + w4 tau) / (sqrt(W^2 + tau^3 (w3 + w4 tau)) + W),
+// so that v W and b, whose difference is small where the lobe is, are one quadratic as above, and to q x dq/dtau is added what
+// specular_curve-inl.h says.
 struct SideBlock {
-  enum OfSide { x0, x1, x2, y0, y1, y2, z0, z1, z2, turn0, turn1, turn2, kappa, begin, end, lowest, rim, side_numbers };
+  enum OfSide { x0, x1, x2, y0, y1, y2, z0, z1, z2, turn0, turn1, turn2, kappa, begin, end, lowest, rim, w0, w1, w2, w3, w4, side_numbers };
   // G / (4 n.v n.l) = 1 / (2 (of_height n.l + of_root S(n.l))).
   enum OfPoint { alpha, view_x, view_z, of_height, of_root, base, rest, level, level_risen, floor, doubt, point_numbers };
   // Those of a block: `sides` for each place of a point, one side of all points after the other; from `first_horizon` on along the horizon.
   std::size_t sides = 0, first_horizon = 0;
+  bool rims = false;  // w0 to w4 are there
   std::array<std::vector<float>, side_numbers> side;
   std::array<std::array<float, points_at_once>, point_numbers> point;
 
-  void make_room(std::size_t along_light, std::size_t along_horizon) {
-    sides = along_light + along_horizon, first_horizon = along_light;
-    for (std::vector<float>& numbers : side) numbers.resize(sides * points_at_once);
+  void make_room(std::size_t along_light, std::size_t along_horizon, bool of_rims) {
+    sides = along_light + along_horizon, first_horizon = along_light, rims = of_rims;
+    for (std::size_t k = 0; k < (rims ? side_numbers : w0); ++k) side[k].resize(sides * points_at_once);
   }
 };
 

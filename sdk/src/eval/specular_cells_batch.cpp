@@ -13,6 +13,7 @@
 
 #include "eval/arc_tangent-inl.h"
 #include "eval/light_batch-inl.h"
+#include "eval/specular_curve-inl.h"
 
 #ifndef ETENDUE_SPECULAR_CELLS_BATCH_SHARED
 #define ETENDUE_SPECULAR_CELLS_BATCH_SHARED
@@ -57,7 +58,7 @@ HWY_INLINE Cell left_over(const std::array<Cell, told>& sums) {
   return hn::Mul(high, hn::Mul(r2, r2));
 }
 
-template <std::size_t NX, std::size_t NT>
+template <std::size_t NX, std::size_t NT, bool Rims>
 HWY_NOINLINE void measure(const SideBlock& block, CellList& cells, std::size_t first) {
   const CellFloats d;
   const hn::RebindToSigned<CellFloats> di;
@@ -67,9 +68,6 @@ HWY_NOINLINE void measure(const SideBlock& block, CellList& cells, std::size_t f
   const auto at_point = hn::LoadU(di, cells.point.data() + first), at_side = hn::LoadU(di, cells.side.data() + first);
   const auto of_point = [&](SideBlock::OfPoint k) ETENDUE_INLINE_LAMBDA { return hn::GatherIndex(d, block.point[k].data(), at_point); };
   const auto of_side = [&](SideBlock::OfSide k) ETENDUE_INLINE_LAMBDA { return hn::GatherIndex(d, block.side[k].data(), at_side); };
-  const Cell hx0 = of_side(SideBlock::x0), hx1 = of_side(SideBlock::x1), hx2 = of_side(SideBlock::x2);
-  const Cell hy0 = of_side(SideBlock::y0), hy1 = of_side(SideBlock::y1), hy2 = of_side(SideBlock::y2);
-  const Cell hz0 = of_side(SideBlock::z0), hz1 = of_side(SideBlock::z1), hz2 = of_side(SideBlock::z2);
   const Cell turn0 = of_side(SideBlock::turn0), turn1 = of_side(SideBlock::turn1), turn2 = of_side(SideBlock::turn2);
   const Cell kappa = of_side(SideBlock::kappa);
   const Cell alpha = of_point(SideBlock::alpha), vx = of_point(SideBlock::view_x), vz = of_point(SideBlock::view_z);
@@ -82,15 +80,17 @@ HWY_NOINLINE void measure(const SideBlock& block, CellList& cells, std::size_t f
   const Cell x_span = hn::Sub(x1, x0), t_span = hn::Sub(t1, t0);
   const Cell alpha2 = hn::Mul(alpha, alpha), less_alpha2 = hn::Sub(one, alpha2), twice_alpha = hn::Add(alpha, alpha);
 
+  const SideCurve<Rims, CellFloats> curve(of_side, vx, vz, alpha);
   struct Place {
     Cell x, y, turn;
   };
   const auto place = [&](Cell x, Cell inner) ETENDUE_INLINE_LAMBDA {
     const Cell tau = hn::Mul(hn::Mul(kappa, hn::Add(origin, x)), inner);
-    const Cell over = inverse(d, hn::MulAdd(hn::MulAdd(hz2, tau, hz1), tau, hz0));
-    return Place{hn::Mul(hn::MulAdd(hn::MulAdd(hx2, tau, hx1), tau, hx0), over),
-                 hn::Mul(hn::MulAdd(hn::MulAdd(hy2, tau, hy1), tau, hy0), over),
-                 hn::Mul(hn::Mul(hn::MulAdd(hn::MulAdd(turn2, tau, turn1), tau, turn0), over), over)};
+    const auto h = curve.at(tau);
+    const Cell over = inverse(d, h.z);
+    Cell turn = hn::MulAdd(hn::MulAdd(turn2, tau, turn1), tau, turn0);
+    if constexpr (Rims) turn = hn::Add(turn, curve.more_turn(tau, h));
+    return Place{hn::Mul(h.x, over), hn::Mul(h.y, over), hn::Mul(hn::Mul(turn, over), over)};
   };
   const auto inner_at = [&](Cell x) ETENDUE_INLINE_LAMBDA { return inverse(d, hn::Mul(hn::Sub(to_end, x), hn::Add(to_begin, x))); };
   // p is taken from the rim, u = 1 - p, where it has more digits: lights far out are thin there.
@@ -235,7 +235,11 @@ HWY_NOINLINE void measure(const SideBlock& block, CellList& cells, std::size_t f
 
 template <std::size_t NX, std::size_t NT>
 void measure_all(const SideBlock& block, CellList& cells) {
-  for (std::size_t i = 0; i < cells.count; i += hn::Lanes(CellFloats())) measure<NX, NT>(block, cells, i);
+  const auto all = [&](const auto& one) {
+    for (std::size_t i = 0; i < cells.count; i += hn::Lanes(CellFloats())) one(block, cells, i);
+  };
+  if (block.rims) return all(measure<NX, NT, true>);
+  all(measure<NX, NT, false>);
 }
 void Measure(const SideBlock& block, double tolerance, CellList& cells) {
   if (cells.count == 0) return;

@@ -4,6 +4,7 @@
 #include "specular_cells.h"
 #include "specular_layout.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -36,9 +37,18 @@ struct SideAt {
     return at(of(SideBlock::kappa) * (x.origin + middle) / (to_end * to_begin));
   }
   Q at(float tau) const {
-    const float over = 1 / (of(SideBlock::z0) + tau * (of(SideBlock::z1) + tau * of(SideBlock::z2)));
-    return {(of(SideBlock::x0) + tau * (of(SideBlock::x1) + tau * of(SideBlock::x2))) * over,
-            (of(SideBlock::y0) + tau * (of(SideBlock::y1) + tau * of(SideBlock::y2))) * over};
+    const auto quadratic = [&](SideBlock::OfSide c0, SideBlock::OfSide c1, SideBlock::OfSide c2) {
+      return of(c0) + tau * (of(c1) + tau * of(c2));
+    };
+    Q h{quadratic(SideBlock::x0, SideBlock::x1, SideBlock::x2), quadratic(SideBlock::y0, SideBlock::y1, SideBlock::y2)};
+    float z = quadratic(SideBlock::z0, SideBlock::z1, SideBlock::z2);
+    if (block.rims) {
+      const float w = quadratic(SideBlock::w0, SideBlock::w1, SideBlock::w2),
+                  rest = tau * tau * tau * (of(SideBlock::w3) + tau * of(SideBlock::w4));
+      const float r = rest / (w + std::sqrt(std::max(w * w + rest, 0.0f)));
+      h.x += of(SideBlock::view_x) / of(SideBlock::alpha) * r, z += of(SideBlock::view_z) * r;
+    }
+    return {h.x / z, h.y / z};
   }
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "eval/light_batch-inl.h"
+#include "eval/specular_curve-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etendue::eval::HWY_NAMESPACE {
@@ -20,36 +21,32 @@ using Floats = hn::CappedTag<float, PartList::longest_vector>;
 using Numbers = hn::Vec<Floats>;
 HWY_INLINE Numbers constant(float x) { return hn::Set(Floats(), x); }
 
-// What is asked of a quadratic's three coefficients at tau.
-HWY_INLINE Numbers quadratic(Numbers c0, Numbers c1, Numbers c2, Numbers tau) { return hn::MulAdd(tau, hn::MulAdd(tau, c2, c1), c0); }
 HWY_INLINE Numbers tau_of(Numbers kappa, Numbers origin, Numbers x) {
   const Numbers one = constant(1), to_end = hn::Sub(hn::Sub(one, origin), x), to_begin = hn::Add(hn::Add(one, origin), x);
   return hn::Div(hn::Mul(kappa, hn::Add(origin, x)), hn::Mul(to_end, to_begin));
 }
-// n.l on the outline: h' is v + l there, but for its length, 1 + tau^2.
-HWY_INLINE Numbers height_on_outline(Numbers z, Numbers view_z, Numbers tau) {
-  return hn::Sub(hn::Div(z, hn::MulAdd(tau, tau, constant(1))), view_z);
-}
-
-void FindEnds(const SideBlock& block, std::size_t count, float negligible, SideEnds& ends) {
+template <bool Rims>
+void find_ends_of(const SideBlock& block, std::size_t count, float negligible, SideEnds& ends) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
   const Numbers one = constant(1), zero = hn::Zero(d), least = constant(std::sqrt(negligible)), step = constant(1e-2f);
   for (std::vector<float>& numbers : ends.side) numbers.resize(block.sides * points_at_once);
   for (std::size_t i = 0; i < count; i += lanes) {
     const auto of_point = [&](SideBlock::OfPoint k) ETENDUE_INLINE_LAMBDA { return hn::LoadU(d, block.point[k].data() + i); };
-    const Numbers alpha = of_point(SideBlock::alpha), view_z = of_point(SideBlock::view_z), rest = of_point(SideBlock::rest);
+    const Numbers alpha = of_point(SideBlock::alpha), view_x = of_point(SideBlock::view_x), view_z = of_point(SideBlock::view_z),
+                  rest = of_point(SideBlock::rest);
     const Numbers layer = hn::Min(alpha, view_z), reach = hn::Max(hn::Add(layer, layer), least);
     for (std::size_t s = 0; s < block.sides; ++s) {
       const std::size_t at = s * points_at_once + i;
       const auto of_side = [&](SideBlock::OfSide k) ETENDUE_INLINE_LAMBDA { return hn::LoadU(d, block.side[k].data() + at); };
-      const Numbers z0 = of_side(SideBlock::z0), z1 = of_side(SideBlock::z1), z2 = of_side(SideBlock::z2), rim = of_side(SideBlock::rim);
+      const SideCurve<Rims, Floats> curve(of_side, view_x, view_z, alpha);
+      const Numbers rim = of_side(SideBlock::rim);
       const auto keep = [&](std::size_t k, Numbers v) ETENDUE_INLINE_LAMBDA { hn::StoreU(v, d, ends.side[k].data() + at); };
       keep(SideEnds::low, hn::IfThenZeroElse(hn::Gt(of_side(SideBlock::lowest), reach), one));
       const Numbers nearest = hn::Mul(constant(5), hn::Max(rim, hn::Mul(constant(0.1f), alpha)));
       keep(SideEnds::rim, hn::IfThenElseZero(hn::And(hn::Gt(alpha, hn::Mul(constant(0.05f), rim)), hn::Gt(rest, nearest)), one));
       const Numbers begin = of_side(SideBlock::begin), end = of_side(SideBlock::end);
-      const auto height = [&](Numbers tau) ETENDUE_INLINE_LAMBDA { return height_on_outline(quadratic(z0, z1, z2, tau), view_z, tau); };
+      const auto height = [&](Numbers tau) ETENDUE_INLINE_LAMBDA { return curve.height(curve.at(tau)); };
       const auto rise = [&](Numbers from, Numbers to, std::size_t low, std::size_t slope) ETENDUE_INLINE_LAMBDA {
         const Numbers here = hn::Max(height(from), zero);
         keep(low, here);
@@ -60,7 +57,8 @@ void FindEnds(const SideBlock& block, std::size_t count, float negligible, SideE
   }
 }
 
-void FindRays(const SideBlock& block, PartList& parts) {
+template <bool Rims>
+void find_rays_of(const SideBlock& block, PartList& parts) {
   const Floats d;
   const hn::RebindToSigned<Floats> di;
   const std::size_t lanes = hn::Lanes(d);
@@ -71,19 +69,17 @@ void FindRays(const SideBlock& block, PartList& parts) {
     const auto at_point = hn::LoadU(di, parts.point.data() + i), at_side = hn::LoadU(di, parts.side.data() + i);
     const auto of_point = [&](SideBlock::OfPoint k) ETENDUE_INLINE_LAMBDA { return hn::GatherIndex(d, block.point[k].data(), at_point); };
     const auto of_side = [&](SideBlock::OfSide k) ETENDUE_INLINE_LAMBDA { return hn::GatherIndex(d, block.side[k].data(), at_side); };
-    const Numbers hx0 = of_side(SideBlock::x0), hx1 = of_side(SideBlock::x1), hx2 = of_side(SideBlock::x2);
-    const Numbers hy0 = of_side(SideBlock::y0), hy1 = of_side(SideBlock::y1), hy2 = of_side(SideBlock::y2);
-    const Numbers hz0 = of_side(SideBlock::z0), hz1 = of_side(SideBlock::z1), hz2 = of_side(SideBlock::z2);
     const Numbers kappa = of_side(SideBlock::kappa), alpha = of_point(SideBlock::alpha), rest = of_point(SideBlock::rest);
     const Numbers view_x = of_point(SideBlock::view_x), view_z = of_point(SideBlock::view_z);
+    const SideCurve<Rims, Floats> curve(of_side, view_x, view_z, alpha);
     const Numbers origin = hn::LoadU(d, parts.origin.data() + i);
     const Numbers x0 = hn::LoadU(d, parts.x0.data() + i), x1 = hn::LoadU(d, parts.x1.data() + i);
     struct Ray {
       Numbers u, height, low, slope;
     };
     const auto ray = [&](Numbers x) ETENDUE_INLINE_LAMBDA {
-      const Numbers tau = tau_of(kappa, origin, x), z = quadratic(hz0, hz1, hz2, tau), over = hn::Div(one, z);
-      const Numbers qx = hn::Mul(quadratic(hx0, hx1, hx2, tau), over), qy = hn::Mul(quadratic(hy0, hy1, hy2, tau), over);
+      const auto h = curve.at(tau_of(kappa, origin, x));
+      const Numbers over = hn::Div(one, h.z), qx = hn::Mul(h.x, over), qy = hn::Mul(h.y, over);
       const Numbers q2 = hn::MulAdd(qx, qx, hn::Mul(qy, qy)), q = hn::Sqrt(q2);
       // 1 - p, which far out of the lobe has more digits than p.
       const Numbers root = hn::Sqrt(hn::Add(one, q2));
@@ -97,7 +93,7 @@ void FindRays(const SideBlock& block, PartList& parts) {
       };
       constexpr float step = 1e-2f;
       const Numbers low = hn::Max(height(1), zero);
-      return Ray{u1, height_on_outline(z, view_z, tau), low, hn::Mul(hn::Sub(height(1 - step), low), constant(1 / step))};
+      return Ray{u1, curve.height(h), low, hn::Mul(hn::Sub(height(1 - step), low), constant(1 / step))};
     };
     const Ray first = ray(x0), middle = ray(hn::Mul(constant(0.5f), hn::Add(x0, x1))), last = ray(x1);
     Numbers low = zero, slope = zero;
@@ -109,6 +105,15 @@ void FindRays(const SideBlock& block, PartList& parts) {
     hn::StoreU(hn::Max(first.height, hn::Max(middle.height, last.height)), d, parts.highest.data() + i);
     hn::StoreU(low, d, parts.low.data() + i), hn::StoreU(slope, d, parts.slope.data() + i);
   }
+}
+
+void FindEnds(const SideBlock& block, std::size_t count, float negligible, SideEnds& ends) {
+  if (block.rims) return find_ends_of<true>(block, count, negligible, ends);
+  find_ends_of<false>(block, count, negligible, ends);
+}
+void FindRays(const SideBlock& block, PartList& parts) {
+  if (block.rims) return find_rays_of<true>(block, parts);
+  find_rays_of<false>(block, parts);
 }
 
 }  // namespace

@@ -32,8 +32,12 @@ std::optional<OutlinedLight> outlined(const Emitter& emitter) {
     light.shape = BallSeen{sphere->centre, sphere->radius};
     return light;
   }
-  if (const auto* tube = std::get_if<TubeEmitter>(&emitter.shape); tube != nullptr && tube->caps == Caps::round && tube->radius > 0) {
-    light.shape = CapsuleSeen{tube->a, tube->b, tube->radius};
+  if (const auto* disk = std::get_if<DiskEmitter>(&emitter.shape); disk != nullptr && disk->radius > 0) {
+    light.shape = DiskSeen{disk->centre, disk->normal, disk->radius};
+    return light;
+  }
+  if (const auto* tube = std::get_if<TubeEmitter>(&emitter.shape); tube != nullptr && tube->radius > 0) {
+    light.shape = TubeSeen{tube->a, tube->b, tube->radius, tube->caps};
     return light;
   }
   if (const auto* sun = std::get_if<DistantEmitter>(&emitter.shape); sun != nullptr && sun->radius_rad > 0 && sun->radius_rad < 0.5 * pi) {
@@ -48,14 +52,16 @@ OutlinedLight OutlinedLight::seen_from(const Vec3d& origin) const {
   if (auto* polygon = std::get_if<CornersSeen>(&light.shape))
     for (Vec3d& corner : polygon->corners) corner = corner - origin;
   if (auto* ball = std::get_if<BallSeen>(&light.shape)) ball->centre = ball->centre - origin;
-  if (auto* tube = std::get_if<CapsuleSeen>(&light.shape)) tube->a = tube->a - origin, tube->b = tube->b - origin;
+  if (auto* disk = std::get_if<DiskSeen>(&light.shape)) disk->centre = disk->centre - origin;
+  if (auto* tube = std::get_if<TubeSeen>(&light.shape)) tube->a = tube->a - origin, tube->b = tube->b - origin;
   return light;
 }
 
 void lay_sides(const OutlinedLight& light, const PlaceBlock& places, std::size_t count, SideBlock& block) {
   if (std::holds_alternative<CornersSeen>(light.shape)) return lay_polygon_sides(light, places, count, block);
-  if (std::holds_alternative<CapsuleSeen>(light.shape)) return lay_arc_sides(light, places, count, block);
-  lay_round_sides(light, places, count, block);
+  if (std::holds_alternative<BallSeen>(light.shape) || std::holds_alternative<CapSeen>(light.shape))
+    return lay_round_sides(light, places, count, block);
+  lay_arc_sides(light, places, count, block);
 }
 
 }  // namespace etendue::eval

@@ -1,4 +1,4 @@
-// Lights whose outlines are made of circles of directions, and their sides at many points: what the kernels of
+// Lights whose outlines are made of circles of directions or in space, and their sides at many points: what the kernels of
 // specular_polygon_sides_batch.cpp, specular_round_sides_batch.cpp and specular_arc_sides_batch.cpp lay out, and specular_cells_batch.cpp
 // integrates from.
 #pragma once
@@ -26,12 +26,17 @@ struct CapSeen {  // of directions, the same everywhere
   Vec3d axis;
   double cosine, sine;
 };
-struct CapsuleSeen {
-  Vec3d a, b;  // centres of the round caps
+struct DiskSeen {
+  Vec3d centre, normal;
   double radius;
 };
+struct TubeSeen {
+  Vec3d a, b;  // centres of the caps
+  double radius;
+  Caps caps;
+};
 struct OutlinedLight {
-  std::variant<CornersSeen, BallSeen, CapSeen, CapsuleSeen> shape;
+  std::variant<CornersSeen, BallSeen, CapSeen, DiskSeen, TubeSeen> shape;
   bool two_sided = false;
   bool separable = false;  // masking; else height-correlated
   double least = 0;        // of the floor below which errors are not relative to the value
@@ -39,7 +44,7 @@ struct OutlinedLight {
   OutlinedLight seen_from(const Vec3d& origin) const;
 };
 
-// Nothing for lights with another outline. Within a sphere that emits there too points are in doubt.
+// Nothing for lights with another outline. Within a sphere or a tube that emits there too points are in doubt.
 std::optional<OutlinedLight> outlined(const Emitter& emitter);
 
 // Of a polygon that is not convex the parts that are laid out; points that see more are in doubt.

@@ -65,7 +65,7 @@ void LayPolygonSides(const OutlinedLight& light, const PlaceBlock& places, std::
   const Doubles d;
   const CornersSeen& polygon = *std::get_if<CornersSeen>(&light.shape);
   const std::size_t sides = polygon.corners.size();
-  block.make_room(sides, polygon.most_parts);
+  block.make_room(sides, polygon.most_parts, false);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const WidePoints points(places, i);
     const Wide height = dot(wide(polygon.corners[0]) - points.position, wide(polygon.normal));

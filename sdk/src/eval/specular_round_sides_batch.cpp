@@ -37,7 +37,7 @@ HWY_INLINE WideCap seen_cap(const OutlinedLight& light, const WidePoints& points
 void LayRoundSides(const OutlinedLight& light, const PlaceBlock& places, std::size_t count, SideBlock& block) {
   const Doubles d;
   const Wide zero = wide(0), one = wide(1), half = wide(0.5);
-  block.make_room(arcs, 1);
+  block.make_room(arcs, 1, false);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const WidePoints points(places, i);
     const WideCap cap = seen_cap(light, points);

@@ -90,7 +90,25 @@ struct WideQuadratic {
     return s;
   }
 };
+// The same of a circle in space, whose b are of any length: h' = v |b| + b.
+struct WideRim {
+  Wide3 view, b0, b1, b2;
+  Wide over_alpha;
+  HWY_INLINE WideSlopes at(Wide t) const {
+    const Wide3 b = plus(b0, plus(b1, b2, t), t), along = plus(b1, b2, hn::Add(t, t));
+    const Wide length = hn::Sqrt(hn::Max(dot(b, b), wide(1e-60))), longer = hn::Div(dot(b, along), length);
+    const Wide3 h = plus(b, view, length), speed = plus(along, view, longer);
+    const Wide over = hn::Div(wide(1), hn::Max(h.z, hn::Mul(wide(1e-12), length))), bent = hn::Mul(over, over_alpha);
+    WideSlopes s;
+    s.x = hn::Mul(h.x, bent), s.y = hn::Mul(h.y, bent);
+    s.speed_x = hn::NegMulAdd(s.x, hn::Mul(speed.z, over), hn::Mul(speed.x, bent));
+    s.speed_y = hn::NegMulAdd(s.y, hn::Mul(speed.z, over), hn::Mul(speed.y, bent));
+    return s;
+  }
+};
 HWY_INLINE Wide p_of(const WideSlopes& s) { return hn::Div(wide(1), hn::Add(wide(1), hn::Sqrt(hn::Add(wide(1), s.squared())))); }
+
+enum class ArcKind { great, circle, rim };
 
 // Lays out all sides of a vector of points and gathers what they say together: where the outline is nearest to the middle of the lobe, how
 // far its places lie apart, and so on.
@@ -128,7 +146,7 @@ class SideLayer {
     const Wide over = hn::Div(wide(1), hn::MulAdd(hn::Mul(wide(0.5), sum2), over_sum, wide(1)));
     const WideArc arc{Wide3{zero, zero, zero}, times(sum, over_sum), times(step, inverse_root(Doubles(), hn::Max(step2, wide(1e-20)))),
                       hn::Mul(hn::Mul(wide(0.5), hn::Sqrt(step2)), over), hn::And(side.seen, hn::Gt(step2, wide(1e-20)))};
-    const Wide at_crossing = lay<true>(index, arc);
+    const Wide at_crossing = lay<ArcKind::great>(index, arc);
     // How often the outline turns about the middle of the lobe: where it crosses the plane of the view ahead of there.
     const WideMask from = hn::Ge(side.from.y, zero), to = hn::Ge(side.to.y, zero);
     const WideMask ahead = hn::And(arc.seen, hn::Gt(at_crossing, zero));
@@ -138,7 +156,12 @@ class SideLayer {
   // Of up to a quarter of a turn.
   HWY_INLINE void lay(std::size_t index, const WideArc& arc) {
     if (hn::AllFalse(Doubles(), arc.seen)) return nothing(index);
-    lay<false>(index, arc);
+    lay<ArcKind::circle>(index, arc);
+  }
+  // Of up to an eighth of a turn, whose b are of any length.
+  HWY_INLINE void lay_rim(std::size_t index, const WideArc& arc) {
+    if (hn::AllFalse(Doubles(), arc.seen)) return nothing(index);
+    lay<ArcKind::rim>(index, arc);
   }
 
   // What a point has beside its sides. `inside`: the middle of the lobe is within the light.
@@ -152,8 +175,32 @@ class SideLayer {
     const auto one = [&](const Wide3& v) ETENDUE_INLINE_LAMBDA { return Wide3{hn::Mul(v.x, over_alpha_), hn::Mul(v.y, over_alpha_), v.z}; };
     return {one(points_.view + centre + middle), one(onwards + onwards), one(points_.view + centre - middle)};
   }
+  // Half vectors of a rim about the place where it is nearest, but for r, which w0 to w4 say.
+  HWY_INLINE WideQuadratic bent_rim(std::size_t index, const WideArc& arc, const Wide3& out, const Wide3& along, Wide begin, Wide end) {
+    // |b|^2 (1 + tau^2) = n0 + n1 tau + n2 tau^2, and W^2 is that times 1 + tau^2 up to the second degree.
+    const Wide two = wide(2), zero = wide(0);
+    const Wide near2 = hn::Mul(two, dot(arc.centre, out)), size2 = hn::Add(dot(arc.centre, arc.centre), dot(out, out));
+    const Wide n0 = hn::Max(hn::Add(size2, near2), wide(1e-60)), n2 = hn::Sub(size2, near2), n1 = hn::Mul(wide(4), dot(arc.centre, along));
+    const Wide w0 = hn::Sqrt(n0), half = hn::Div(wide(0.5), w0), w1 = hn::Mul(n1, half);
+    const Wide w2 = hn::Mul(hn::NegMulAdd(w1, w1, hn::Add(n0, n2)), half);
+    keep(SideBlock::w0, index, w0), keep(SideBlock::w1, index, w1), keep(SideBlock::w2, index, w2);
+    keep(SideBlock::w3, index, hn::NegMulAdd(hn::Mul(two, w1), w2, n1)), keep(SideBlock::w4, index, hn::NegMulAdd(w2, w2, n2));
+    // A rim that passes close to the point is not like W.
+    for (const Wide tau : {begin, end}) {
+      const Wide w = hn::MulAdd(hn::MulAdd(w2, tau, w1), tau, w0), squared = hn::MulAdd(hn::MulAdd(n2, tau, n1), tau, n0);
+      const Wide length = hn::Sqrt(hn::Max(hn::Mul(squared, hn::MulAdd(tau, tau, wide(1))), zero));
+      doubtful = hn::Or(doubtful, hn::And(arc.seen, hn::Lt(w, hn::Mul(wide(0.25), length))));
+    }
+    WideQuadratic c = bent(arc.centre, out, along);
+    const auto add = [&](Wide3& to, Wide times) {
+      to.x = hn::MulAdd(hn::Mul(points_.view.x, over_alpha_), times, to.x), to.z = hn::MulAdd(points_.view.z, times, to.z);
+    };
+    // bent() has the view once in c0 and in c2.
+    add(c.c0, hn::Sub(w0, wide(1))), add(c.c1, w1), add(c.c2, hn::Sub(w2, wide(1)));
+    return c;
+  }
   // The slope along x where the arc crosses the plane of the view.
-  template <bool Great>
+  template <ArcKind Kind>
   HWY_INLINE Wide lay(std::size_t index, const WideArc& arc);
 
   const WidePoints& points_;
@@ -170,12 +217,16 @@ class SideLayer {
   WideMask started_;
 };
 
-template <bool Great>
+template <ArcKind Kind>
 HWY_INLINE Wide SideLayer::lay(std::size_t index, const WideArc& arc) {
   const Doubles d;
   const Wide zero = wide(0), one = wide(1), u = arc.reach, tiny = wide(1e-60);
   const Wide3& view = points_.view;
-  const WideQuadratic curve = bent(arc.centre, arc.u, arc.v);
+  constexpr bool Great = Kind == ArcKind::great, Rim = Kind == ArcKind::rim;
+  const auto curve = [&] {
+    if constexpr (Rim) return WideRim{view, arc.centre + arc.u, arc.v + arc.v, arc.centre - arc.u, over_alpha_};
+    if constexpr (!Rim) return bent(arc.centre, arc.u, arc.v);
+  }();
   // Nearest: of the middle, the ends, where it crosses the plane of the view, and where it is closest to the mirror direction (of a great
   // circle that is near enough to one of these); then steps of Gauss and Newton.
   Wide best = zero;
@@ -212,8 +263,13 @@ HWY_INLINE Wide SideLayer::lay(std::size_t index, const WideArc& arc) {
   const Wide per = hn::Div(one, hn::MulAdd(best, best, one));
   const Wide cs = hn::Mul(hn::NegMulAdd(best, best, one), per), sn = hn::Mul(hn::Add(best, best), per);
   const Wide3 out = plus(times(arc.u, cs), arc.v, sn), along = plus(times(arc.v, cs), arc.u, hn::Neg(sn));
-  const WideQuadratic c = bent(arc.centre, out, along);
   const auto tau_at = [&](Wide t) ETENDUE_INLINE_LAMBDA { return hn::Div(hn::Sub(t, best), hn::MulAdd(t, best, one)); };
+  WideQuadratic c;
+  if constexpr (Rim) {
+    c = bent_rim(index, arc, out, along, tau_at(hn::Neg(u)), tau_at(u));
+  } else {
+    c = bent(arc.centre, out, along);
+  }
   const WideSlopes here = c.at(zero);
   const Wide q2 = here.squared(), speed2 = hn::MulAdd(here.speed_x, here.speed_x, hn::Mul(here.speed_y, here.speed_y));
   const Wide kappa = hn::Min(hn::Sqrt(hn::Div(hn::Mul(wide(4), hn::Add(one, q2)), hn::Max(speed2, tiny))), wide(1e3));
@@ -245,19 +301,24 @@ HWY_INLINE Wide SideLayer::lay(std::size_t index, const WideArc& arc) {
   // n.l at the ends, and at the lowest place of a circle where that is between them.
   const Wide over = hn::Div(one, hn::MulAdd(u, u, one)), sine = hn::Mul(hn::Add(u, u), over),
              cosine = hn::Mul(hn::NegMulAdd(u, u, one), over);
-  Wide lowest = hn::Sub(hn::MulAdd(arc.u.z, cosine, arc.centre.z), hn::Abs(hn::Mul(arc.v.z, sine)));
+  const auto height = [&](const Wide3& b) ETENDUE_INLINE_LAMBDA { return Rim ? hn::Div(b.z, hn::Sqrt(hn::Max(dot(b, b), tiny))) : b.z; };
+  const Wide3 mean = plus(arc.centre, arc.u, cosine);
+  Wide lowest = hn::Min(height(plus(mean, arc.v, sine)), height(plus(mean, arc.v, hn::Neg(sine))));
   Wide rim = hn::Min(from_rim(start), from_rim(finish));
   if constexpr (!Great) {
-    const Wide rise = hn::Sqrt(hn::MulAdd(arc.u.z, arc.u.z, hn::Mul(arc.v.z, arc.v.z)));
-    lowest = hn::IfThenElse(hn::Ge(hn::Neg(arc.u.z), hn::Mul(rise, cosine)), hn::Sub(arc.centre.z, rise), lowest);
+    const Wide rise = hn::Sqrt(hn::MulAdd(arc.u.z, arc.u.z, hn::MulAdd(arc.v.z, arc.v.z, tiny))), down = hn::Div(wide(-1), rise);
+    const Wide3 bottom = plus(plus(arc.centre, arc.u, hn::Mul(arc.u.z, down)), arc.v, hn::Mul(arc.v.z, down));
+    lowest = hn::IfThenElse(hn::Ge(hn::Neg(arc.u.z), hn::Mul(rise, cosine)), hn::Min(lowest, height(bottom)), lowest);
     rim = hn::Min(rim, from_rim(middle));
   }
   keep(SideBlock::lowest, index, lowest), keep(SideBlock::rim, index, rim);
-  // Half the integral of b x db: b x b' = centre x (v cos s - u sin s) + u x v.
+  // Half the integral of b x db, where b is of length 1: b x b' = centre x (v cos s - u sin s) + u x v.
   const auto vertical = [](const Wide3& a, const Wide3& b) ETENDUE_INLINE_LAMBDA { return hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x)); };
-  Wide part = hn::Mul(hn::Mul(wide(2), arc_tangent(d, u)), vertical(arc.u, arc.v));
-  if constexpr (!Great) part = hn::MulAdd(sine, vertical(arc.centre, arc.v), part);
-  illuminance = hn::Add(illuminance, hn::IfThenElseZero(arc.seen, part));
+  if constexpr (!Rim) {
+    Wide part = hn::Mul(hn::Mul(wide(2), arc_tangent(d, u)), vertical(arc.u, arc.v));
+    if constexpr (!Great) part = hn::MulAdd(sine, vertical(arc.centre, arc.v), part);
+    illuminance = hn::Add(illuminance, hn::IfThenElseZero(arc.seen, part));
+  }
   return ahead;
 }
 

@@ -267,8 +267,7 @@ Result<SpecularWithinBatch> SpecularWithinBatch::of(const Emitter& emitter, doub
   if (masking != Masking::correlated && masking != Masking::separable)
     return Error{"METHOD_LOBE", "expected height-correlated or separable masking", {}, {}, {}};
   std::optional<OutlinedLight> outline = is_uniform_area_light(emitter) ? outlined(emitter) : std::nullopt;
-  if (!outline)
-    return Error{"METHOD_SHAPE", "expected a uniform polygon, sphere, sun or tube with round caps without a window", {}, {}, {}};
+  if (!outline) return Error{"METHOD_SHAPE", "expected a uniform polygon, sphere, disk, sun or tube without a window", {}, {}, {}};
   const Rgb luminance = luminance_of(emitter);
   const double brightest = std::max({luminance.x, luminance.y, luminance.z});
   outline->separable = masking == Masking::separable;
