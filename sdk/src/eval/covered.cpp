@@ -63,7 +63,8 @@ double masked_between(double alpha, double v, double l) { return 0.5 / (2 * v * 
 //
 // In the point's frame: ends in space, 1 / distance of directions between them the mean of both; half the width, at a place of that
 // 1 / distance and that cosine, as an angle; and how much farther the ends go on, over that.
-// `through_mirror`: they lie in the plane of the centre and the mirrored view.
+// `through_mirror`: they lie in the plane of the centre and the mirrored view, whose slope is 0. Such a strip goes through the lobe's
+// middle (beta = 0), and its closest place is known as a direction: the mean is taken between directions.
 template <class Angle>
 Rgb lit_by_strip(const LobeView& lobe, const Vec3d& a, const Vec3d& b, const Angle& half_width, double caps, bool through_mirror) {
   const Vec3d v = lobe.frame.vector(lobe.view);
@@ -74,17 +75,17 @@ Rgb lit_by_strip(const LobeView& lobe, const Vec3d& a, const Vec3d& b, const Ang
   constexpr double least = 1e-6;
   const Vec2d step{to.x - from.x + least * from.x, to.y - from.y + least * from.y};
   const double length2 = step.x * step.x + step.y * step.y + 1e-20, behind = from.x * step.x + from.y * step.y;
-  const double pull = 1.5 * alpha2, closest = std::clamp(-behind, 0.0, length2), middle = 0.5 * length2 * (sum_a.z + sum_b.z);
-  const double of_closest = through_mirror ? middle * mirrored_share(lobe.frame.vector(lobe.mirror), to_a, to_b) : closest * sum_a.z;
-  const double of_rest = through_mirror ? middle - of_closest : (length2 - closest) * sum_b.z;
-  const double of_b = of_closest + pull * sum_a.z, of_a = of_rest + pull * sum_b.z, share = of_b / (of_a + of_b);
+  const double pull = 1.5 * alpha2, closest = std::clamp(-behind, 0.0, length2);
+  const double of_b = (closest + pull) * sum_a.z, of_a = (length2 - closest + pull) * sum_b.z;
+  const double share = through_mirror ? (mirrored_share(lobe.frame.vector(lobe.mirror), to_a, to_b) * length2 + pull) / (length2 + 2 * pull)
+                                      : of_b / (of_a + of_b);
   const Vec3d chord = to_a + span * share;
   const double over_chord = 1 / length(chord), over_distance = (over_a + (over_b - over_a) * share) * over_chord;
   const Vec3d l = chord * over_chord, sum = v + l, onwards = span - l * dot(l, span);
   if (!(l.z > 0 && dot(lobe.surface_normal, lobe.frame.to_world(l)) > 0)) return {};
   const Vec2d q{sum.x / sum.z, sum.y / sum.z}, go{onwards.x - q.x * onwards.z, onwards.y - q.y * onwards.z};
   const double gone = std::sqrt(go.x * go.x + go.y * go.y + least * least), turned = std::sqrt(dot(onwards, onwards) + least * least);
-  const double beta = (q.x * go.y - q.y * go.x) / gone, angle = half_width(over_distance, l.z);
+  const double beta = through_mirror ? 0 : (q.x * go.y - q.y * go.x) / gone, angle = half_width(over_distance, l.z);
   const double w = angle * dot(sum, sum) / (2 * sum.z * sum.z) * turned / gone, longer = caps * angle * gone / (turned * sum.z);
   const double begin = behind / std::sqrt(length2) - longer, end = (behind + length2) / std::sqrt(length2) + longer;
   const double wider2 = pi * pi / 16 * (alpha2 + beta * beta);

@@ -116,19 +116,18 @@ struct OverDistances {
   }
 };
 
-// A strip has ends() and broad(place), half its width there times the length of `onwards`; a rounded one caps(place), how far it goes on
-// beyond its ends, over that length.
+// A strip has ends and, at a place, a quarter of its width: a tube's over the length of `onwards`, and its ends are rounded; others' times
+// that length. Others lie in the plane of the mirrored view, the nearest to which is so much of the way from a to b.
 struct TubeStrip {
   StripEnds ends;
   OverDistances over;
   float radius;
   static constexpr bool rounded = true;
-  HWY_INLINE Lanes angle(const StripPlace& place) const {
-    const Lanes whole = hn::Mul(number(radius), over(place));
-    return HWY_UNLIKELY(ends.cut) ? hn::Min(whole, place.at.rise) : whole;
+  HWY_INLINE Lanes quarter_width(const StripPlace& place) const {
+    Lanes angle = hn::Mul(number(0.5f * radius), over(place));
+    if (HWY_UNLIKELY(ends.cut)) angle = hn::Min(angle, hn::Mul(number(0.5f), place.at.rise));
+    return hn::Mul(angle, near_inverse_sqrt(Floats(), place.turned2()));
   }
-  HWY_INLINE Lanes caps(const StripPlace& place) const { return hn::Mul(angle(place), near_inverse_sqrt(Floats(), place.turned2())); }
-  HWY_INLINE Lanes broad(const StripPlace& place) const { return hn::Mul(caps(place), place.turned2()); }
 };
 HWY_INLINE TubeStrip strip_of(const PlacedTube& tube, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
   const Floats d;
@@ -154,26 +153,59 @@ HWY_INLINE TubeStrip strip_of(const PlacedTube& tube, const Vector3& position, c
   return {{scaled(a, over_a), scaled(b, over_b), hn::Mul(high_a, over_a), hn::Mul(high_b, over_b), cut}, {over_a, over_b}, tube.radius};
 }
 
-// Of a sphere of directions the diameter in the plane of the mirrored view, and as wide as leaves its area.
+// In the plane of the mirrored view what is above the horizon of the line centre + half t, t from -1 to 1, which that meets at `met`: its
+// share of the line.
+struct MirroredLine {
+  StripEnds ends;
+  OverDistances over;
+  Lanes nearest, left;
+};
+template <bool unit_ends>
+HWY_INLINE MirroredLine mirrored_line(const Vector3& centre, const Vector3& half, Lanes met, const LobeLanes& lobe, Lit& lit) {
+  const Floats d;
+  const Lanes zero = number(0), one = number(1), high = dot(centre, lobe.frame.z), more = dot(half, lobe.frame.z);
+  Lanes high_a = hn::Add(high, more), high_b = hn::Sub(high, more), t_a = one, t_b = one, left = one;
+  const bool cut = !hn::AllTrue(d, hn::Ge(hn::Min(high_a, high_b), zero));
+  if (HWY_UNLIKELY(cut)) {
+    lit = hn::And(lit, hn::Gt(hn::Max(high_a, high_b), zero));
+    // At high + more t = 0.
+    const Lanes t = hn::Neg(hn::Mul(high, inverse(d, more)));
+    t_a = hn::IfThenElse(hn::Lt(high_a, zero), t, one), t_b = hn::IfThenElse(hn::Lt(high_b, zero), hn::Neg(t), one);
+    high_a = positive(high_a), high_b = positive(high_b), left = hn::Mul(number(0.5f), hn::Add(t_a, t_b));
+  } else if constexpr (unit_ends) {
+    const Lanes nearest = hn::NegMulAdd(number(0.5f), met, number(0.5f));
+    return {{centre + half, centre - half, high_a, high_b, false}, {one, one}, nearest, one};
+  }
+  const Vector3 a = along(centre, half, t_a), b = along(centre, half, hn::Neg(t_b));
+  const Lanes over_a = inverse_length(a), over_b = inverse_length(b);
+  const Lanes of_b = hn::Mul(positive(hn::Sub(t_a, met)), over_a), of_a = hn::Mul(positive(hn::Add(t_b, met)), over_b);
+  const Lanes nearest = hn::Mul(of_b, rough_inverse(hn::Add(of_a, of_b)));
+  return {{scaled(a, over_a), scaled(b, over_b), hn::Mul(high_a, over_a), hn::Mul(high_b, over_b), cut}, {over_a, over_b}, nearest, left};
+}
+HWY_INLINE Vector3 mirrored(const LobeLanes& lobe) {
+  return along(opposite(lobe.eye), lobe.frame.z, hn::Add(lobe.frame.cosine, lobe.frame.cosine));
+}
+
+// Of a sphere of directions a diameter, and as wide as leaves its area.
 struct RoundStrip {
   StripEnds ends;
-  Lanes angle;
+  Lanes nearest, quarter_angle;
   static constexpr bool rounded = false;
-  HWY_INLINE Lanes broad(const StripPlace& place) const {
-    const Lanes turned = near_root(place.turned2());
+  HWY_INLINE Lanes quarter_width(const StripPlace& place) const {
     // On the lower side no farther than the horizon.
-    if (HWY_UNLIKELY(ends.cut)) return hn::Mul(turned, hn::Mul(number(0.5f), hn::Add(angle, hn::Min(angle, place.at.rise))));
-    return hn::Mul(turned, angle);
+    const Lanes low = hn::Min(quarter_angle, hn::Mul(number(0.25f), place.at.rise));
+    return hn::Mul(near_root(place.turned2()), hn::Add(quarter_angle, low));
   }
 };
 template <class Ball>
 HWY_INLINE RoundStrip strip_of(const Ball& ball, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
   const Floats d;
-  const Lanes zero = number(0), one = number(1), cosine = lobe.frame.cosine;
-  const Vector3 &n = lobe.frame.z, centre = centre_of(ball, position);
+  const Lanes zero = number(0), one = number(1);
+  const Vector3 centre = centre_of(ball, position), mirror = mirrored(lobe);
   const Lanes over = inverse_length(centre), sine = hn::Min(hn::Mul(number(ball.radius), over), one);
-  const Vector3 l = scaled(centre, over), mirror = along(opposite(lobe.eye), n, hn::Add(cosine, cosine));
-  Vector3 side = along(mirror, l, hn::Neg(dot(l, mirror)));
+  const Vector3 l = scaled(centre, over);
+  const Lanes along_l = dot(l, mirror), cosine = hn::Sqrt(hn::NegMulAdd(sine, sine, one));
+  Vector3 side = along(mirror, l, hn::Neg(along_l));
   Lanes side2 = dot(side, side);
   const Lit within = hn::Lt(side2, number(1e-10f));
   if (HWY_UNLIKELY(!hn::AllFalse(d, within))) {
@@ -183,80 +215,62 @@ HWY_INLINE RoundStrip strip_of(const Ball& ball, const Vector3& position, const 
     side = chosen(within, cross(l, axis), side);
     side2 = dot(side, side);
   }
-  const Vector3 middle = scaled(l, hn::Sqrt(hn::NegMulAdd(sine, sine, one))), half = scaled(side, hn::Mul(sine, inverse_sqrt(d, side2)));
-  Vector3 a = middle + half, b = middle - half;
-  Lanes rise_a = dot(a, n), rise_b = dot(b, n);
-  const bool cut = !hn::AllTrue(d, hn::Ge(dot(l, n), sine));
-  if (HWY_UNLIKELY(cut)) {
-    lit = hn::And(lit, hn::Gt(hn::Max(rise_a, rise_b), zero));
-    const Vector3 crossing = unit(scaled(a, hn::Abs(rise_b)) + scaled(b, hn::Abs(rise_a)));
-    a = chosen(hn::Lt(rise_a, zero), crossing, a), b = chosen(hn::Lt(rise_b, zero), crossing, b);
-    rise_a = positive(rise_a), rise_b = positive(rise_b);
-  }
-  return {{a, b, rise_a, rise_b, cut}, hn::Mul(number(static_cast<float>(pi / 4)), sine)};
+  const Lanes over_side = inverse_sqrt(d, side2);
+  // The tangent of the mirrored view's angle from the centre over that of the edge's.
+  const Lanes met = hn::Mul(hn::Mul(hn::Mul(side2, over_side), cosine), rough_inverse(hn::Max(hn::Mul(along_l, sine), number(1e-20f))));
+  const MirroredLine line = mirrored_line<true>(scaled(l, cosine), scaled(side, hn::Mul(sine, over_side)), hn::Min(met, one), lobe, lit);
+  return {line.ends, line.nearest, hn::Mul(number(static_cast<float>(pi / 16)), sine)};
 }
 
-// Of a flat light what the plane of its centre and the mirrored view cuts, and as wide as leaves its area: of a solid angle
-// area height / distance^3 there is, on the chord's way, as much as 1 / distance has there of both ends'.
+// A flat light's is as wide as leaves its area: of a solid angle area height / distance^3 there is, on the chord's way, as much as
+// 1 / distance has there of both ends'.
 struct FlatStrip {
   StripEnds ends;
+  Lanes nearest;
   OverDistances over;
-  Lanes half_volume;
+  Lanes quarter_volume;
   static constexpr bool rounded = false;
-  HWY_INLINE Lanes broad(const StripPlace& place) const {
-    return hn::Mul(hn::Mul(half_volume, hn::Mul(over.a, over.b)), hn::Mul(over(place), place.over_chord));
+  HWY_INLINE Lanes quarter_width(const StripPlace& place) const {
+    return hn::Mul(hn::Mul(quarter_volume, hn::Mul(over.a, over.b)), hn::Mul(over(place), place.over_chord));
   }
 };
-HWY_INLINE FlatStrip flat_strip(const Vector3& centre, const Vector3& half, Lanes half_volume, const LobeLanes& lobe, Lit& lit) {
-  const Floats d;
-  const Lanes zero = number(0), one = number(1), high = dot(centre, lobe.frame.z), more = dot(half, lobe.frame.z);
-  Lanes high_a = hn::Add(high, more), high_b = hn::Sub(high, more), part_a = one, part_b = one;
-  const bool cut = !hn::AllTrue(d, hn::Ge(hn::Min(high_a, high_b), zero));
-  if (HWY_UNLIKELY(cut)) {
-    lit = hn::And(lit, hn::Gt(hn::Max(high_a, high_b), zero));
-    // At high + more t = 0.
-    const Lanes t = hn::Neg(hn::Mul(high, inverse(d, more)));
-    part_a = hn::IfThenElse(hn::Lt(high_a, zero), t, one), part_b = hn::IfThenElse(hn::Lt(high_b, zero), hn::Neg(t), one);
-    high_a = positive(high_a), high_b = positive(high_b);
-    half_volume = hn::Mul(half_volume, hn::Mul(number(0.5f), hn::Add(part_a, part_b)));
-  }
-  const Vector3 a = along(centre, half, part_a), b = along(centre, half, hn::Neg(part_b));
-  const Lanes over_a = inverse_length(a), over_b = inverse_length(b);
-  return {{scaled(a, over_a), scaled(b, over_b), hn::Mul(high_a, over_a), hn::Mul(high_b, over_b), cut}, {over_a, over_b}, half_volume};
+// From the centre to where the mirrored view meets the light's plane it is the way over `falling`, if that is positive.
+struct WayToMirror {
+  Vector3 way;
+  Lanes falling;
+};
+HWY_INLINE WayToMirror way_to_mirror(const Vector3& centre, const Vector3& normal, const Vector3& x, Lanes height, const LobeLanes& lobe) {
+  const Vector3 mirror = mirrored(lobe);
+  const Lanes rising = dot(mirror, normal);
+  return {along(along(scaled(mirror, height), centre, rising), scaled(x, number(1e-6f)), height), hn::Neg(rising)};
 }
-// In the light's plane, from the centre to where the mirrored view meets it, or comes from: some multiple of it.
-HWY_INLINE Vector3 towards_mirror(const Vector3& centre, const Vector3& normal, const Vector3& x, Lanes height, const LobeLanes& lobe) {
-  const Vector3 mirror = along(opposite(lobe.eye), lobe.frame.z, hn::Add(lobe.frame.cosine, lobe.frame.cosine));
-  return along(along(scaled(mirror, height), centre, dot(mirror, normal)), x, hn::Mul(number(1e-6f), height));
+// `over` of the way is as far as the light goes.
+HWY_INLINE FlatStrip flat_strip(const Vector3& centre, const WayToMirror& to, Lanes over, Lanes volume, const LobeLanes& lobe, Lit& lit) {
+  const Lanes zero = number(0), one = number(1);
+  const Lanes met = hn::IfThenElse(hn::Gt(to.falling, zero), hn::Min(rough_inverse(hn::Mul(over, to.falling)), one), one);
+  const MirroredLine line = mirrored_line<false>(centre, scaled(to.way, over), met, lobe, lit);
+  return {line.ends, line.nearest, line.over, hn::Mul(hn::Mul(number(0.25f), volume), line.left)};
 }
 HWY_INLINE FlatStrip strip_of(const PlacedRect& rect, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
   const Floats d;
   const Vector3 centre = towards(d, rect.centre, position), normal = numbers(d, rect.normal), x = numbers(d, rect.x);
   const Lanes height = hn::Neg(dot(centre, normal));
   lit = hn::And(lit, hn::Gt(height, number(0)));
-  const Vector3 way = towards_mirror(centre, normal, x, height, lobe);
-  const Lanes s = hn::Mul(hn::Abs(dot(way, x)), number(1 / rect.half_x)),
-              t = hn::Mul(hn::Abs(dot(way, numbers(d, rect.y))), number(1 / rect.half_y));
-  return flat_strip(centre, scaled(way, inverse(d, hn::Max(s, t))), hn::Mul(number(2 * rect.half_x * rect.half_y), height), lobe, lit);
+  const WayToMirror to = way_to_mirror(centre, normal, x, height, lobe);
+  const Lanes s = hn::Mul(hn::Abs(dot(to.way, x)), number(1 / rect.half_x));
+  const Lanes t = hn::Mul(hn::Abs(dot(to.way, numbers(d, rect.y))), number(1 / rect.half_y));
+  return flat_strip(centre, to, inverse(d, hn::Max(s, t)), hn::Mul(number(4 * rect.half_x * rect.half_y), height), lobe, lit);
 }
 HWY_INLINE FlatStrip strip_of(const PlacedDisk& disk, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
   const Floats d;
   const Vector3 centre = towards(d, disk.centre, position), normal = numbers(d, disk.normal);
   const Lanes height = hn::Neg(dot(centre, normal));
   lit = hn::And(lit, hn::Gt(height, number(0)));
-  const Vector3 way = towards_mirror(centre, normal, numbers(d, disk.x), height, lobe);
-  const Vector3 half = scaled(way, hn::Mul(number(disk.radius), inverse_length(way)));
-  return flat_strip(centre, half, hn::Mul(number(static_cast<float>(0.5 * pi) * disk.radius * disk.radius), height), lobe, lit);
+  const WayToMirror to = way_to_mirror(centre, normal, numbers(d, disk.x), height, lobe);
+  const Lanes over = hn::Mul(number(disk.radius), inverse_length(to.way));
+  return flat_strip(centre, to, over, hn::Mul(number(static_cast<float>(pi) * disk.radius * disk.radius), height), lobe, lit);
 }
 
-// Of the way from a to b where the mirrored view r meets their plane, or the end that is nearer: with p = r.a, q = r.b and c = a.b,
-// r = ((p - c q) a + (q - c p) b) / (1 - c^2).
-HWY_INLINE Lanes mirrored_share(const LobeLanes& lobe, const StripEnds& ends, const Vector3& span) {
-  const Lanes twice = hn::Add(lobe.frame.cosine, lobe.frame.cosine), less = hn::Mul(number(0.5f), dot(span, span));
-  const Lanes p = hn::MulSub(twice, ends.rise_a, dot(lobe.eye, ends.to_a)), q = hn::MulSub(twice, ends.rise_b, dot(lobe.eye, ends.to_b));
-  const Lanes below = hn::Max(hn::Mul(hn::Add(p, q), less), number(1e-12f));
-  return saturate(hn::Mul(hn::MulAdd(less, p, hn::Sub(q, p)), rough_inverse(below)));
-}
 template <class Strip>
 HWY_INLINE Shares lit_by_strip(const LobeLanes& lobe, const Strip& strip) {
   const Floats d;
@@ -265,22 +279,22 @@ HWY_INLINE Shares lit_by_strip(const LobeLanes& lobe, const Strip& strip) {
   const Vector3 &n = lobe.frame.z, span = to_b - to_a;
   const Lanes z_a = hn::Add(rise_a, cosine), z_b = hn::Add(rise_b, cosine);
   const Vector3 from = scaled(lobe.eye + to_a, inverse(d, z_a)), to = scaled(lobe.eye + to_b, inverse(d, z_b));
+  const Vector3 slope = from - n;
+  Vector3 step = to - from;
   // Seen end-on its direction is the slope's.
-  const Vector3 slope = from - n, step = along(to - from, slope, number(1e-6f));
+  if constexpr (Strip::rounded) step = along(step, slope, number(1e-6f));
   const Lanes length2 = hn::MulAdd(step.x, step.x, hn::MulAdd(step.y, step.y, hn::MulAdd(step.z, step.z, number(1e-20f))));
   const Lanes over_length = near_inverse_sqrt(d, length2), behind = dot(slope, step);
   // The lobe's mean on the strip.
   const Lanes pull = hn::Mul(number(1.5f), alpha2);
-  Lanes of_a, of_b;
+  Lanes share;
   if constexpr (Strip::rounded) {
     const Lanes closest = hn::Min(positive(hn::Neg(behind)), length2);
-    of_b = hn::Mul(hn::Add(closest, pull), z_a), of_a = hn::Mul(hn::Add(hn::Sub(length2, closest), pull), z_b);
+    const Lanes of_b = hn::Mul(hn::Add(closest, pull), z_a), of_a = hn::Mul(hn::Add(hn::Sub(length2, closest), pull), z_b);
+    share = hn::Mul(of_b, rough_inverse(hn::Add(of_a, of_b)));
   } else {
-    const Lanes middle = hn::Mul(hn::Mul(number(0.5f), length2), hn::Add(z_a, z_b)),
-                of_closest = hn::Mul(middle, mirrored_share(lobe, strip.ends, span));
-    of_b = hn::MulAdd(pull, z_a, of_closest), of_a = hn::MulAdd(pull, z_b, hn::Sub(middle, of_closest));
+    share = hn::Mul(hn::MulAdd(strip.nearest, length2, pull), rough_inverse(hn::MulAdd(number(2), pull, length2)));
   }
-  const Lanes share = hn::Mul(of_b, rough_inverse(hn::Add(of_a, of_b)));
   const Vector3 chord = along(to_a, span, share);
   const Lanes over_chord = inverse_length(chord);
   const Vector3 l = scaled(chord, over_chord);
@@ -293,20 +307,26 @@ HWY_INLINE Shares lit_by_strip(const LobeLanes& lobe, const Strip& strip) {
   const Vector3 go = along(place.onwards, at.sum, hn::Neg(hn::Mul(rises, over_z)));
   const Lanes gone2 = hn::MulAdd(go.x, go.x, hn::MulAdd(go.y, go.y, hn::MulAdd(go.z, go.z, number(1e-12f))));
   const Lanes aside = hn::Mul(near_inverse_sqrt(d, gone2), over_z);
-  const Lanes beta = hn::Mul(dot(n, cross(at.sum, place.onwards)), aside);
-  const Lanes w = hn::Mul(hn::Mul(strip.broad(place), hn::Mul(number(0.5f), bent)), aside);
+  const Lanes quarter = hn::Mul(strip.quarter_width(place), aside);
   Lanes begin = hn::Mul(behind, over_length), end = hn::Mul(hn::Add(behind, length2), over_length);
-  if constexpr (Strip::rounded) {
-    const Lanes longer = hn::Mul(hn::Mul(number(static_cast<float>(pi / 4)), strip.caps(place)), hn::Mul(aside, gone2));
-    begin = hn::Sub(begin, longer), end = hn::Add(end, longer);
-  }
   // Twice s / sqrt(s^2 + w^2), a step of Newton's.
   const auto part = [&](Lanes s, Lanes w2) ETENDUE_INLINE_LAMBDA {
     const Lanes square = hn::MulAdd(s, s, w2), guess = near_inverse_sqrt(d, square);
     return hn::Mul(hn::Mul(s, guess), hn::NegMulAdd(hn::Mul(square, guess), guess, number(3)));
   };
-  const Lanes wider2 = hn::Mul(number(static_cast<float>(pi * pi / 16)), hn::MulAdd(beta, beta, alpha2));
-  const Lanes across = hn::Sub(part(hn::Add(beta, w), alpha2), part(hn::Sub(beta, w), alpha2));
+  Lanes across, from_middle2 = alpha2;
+  if constexpr (Strip::rounded) {
+    const Lanes w = hn::Mul(quarter, hn::Mul(bent, place.turned2()));
+    const Lanes longer = hn::Mul(number(static_cast<float>(pi / 2)), hn::Mul(quarter, gone2));
+    begin = hn::Sub(begin, longer), end = hn::Add(end, longer);
+    const Lanes beta = hn::Mul(dot(n, cross(at.sum, place.onwards)), aside);
+    across = hn::Sub(part(hn::Add(beta, w), alpha2), part(hn::Sub(beta, w), alpha2));
+    from_middle2 = hn::MulAdd(beta, beta, alpha2);
+  } else {
+    const Lanes w = hn::Mul(quarter, bent);
+    across = hn::Mul(number(4), hn::Mul(w, near_inverse_sqrt(d, hn::MulAdd(w, w, alpha2))));
+  }
+  const Lanes wider2 = hn::Mul(number(static_cast<float>(pi * pi / 16)), from_middle2);
   const Lanes lengthwise = hn::Sub(part(end, wider2), part(begin, wider2));
   const Lanes value = hn::Mul(hn::Mul(across, lengthwise), hn::Mul(slow_part<!Strip::rounded>(lobe, at, bent), number(0.0625f)));
   return LobeLanes::split(value, near_root(at.total), hn::Gt(at.rise, zero));
