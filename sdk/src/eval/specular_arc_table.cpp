@@ -45,6 +45,14 @@ struct SeenFrom {
   static constexpr Vec3d up{0, 0, 1};
 };
 
+// Quarters of a turn; eighths of a rim that is close to the point: |b|^2 = m + rho cos s is 0 arcosh(m / rho) beside the arc, and of rules
+// over quarters that bends no more than the lobe does from 2.3 on.
+std::size_t parts_of(const Arc& arc) {
+  const double m = dot(arc.centre, arc.centre) + dot(arc.u, arc.u), rho = 2 * std::hypot(dot(arc.centre, arc.u), dot(arc.centre, arc.v));
+  const bool close = !arc.unit && m < 5 * rho;
+  return static_cast<std::size_t>(std::max(1.0, std::ceil((arc.end - arc.begin) / ((close ? 0.25 : 0.5) * pi) - 1e-9)));
+}
+
 bool has_rims(const OutlinedLight& light) {
   const auto* tube = std::get_if<TubeSeen>(&light.shape);
   return tube == nullptr || tube->caps != Caps::round;
@@ -52,13 +60,20 @@ bool has_rims(const OutlinedLight& light) {
 
 }  // namespace
 
-void ArcTable::put(std::size_t index, std::size_t point, const Arc& part) {
-  const double middle = 0.5 * (part.begin + part.end), cs = std::cos(middle), sn = std::sin(middle);
-  const double size = part.unit ? 1 : 1 / std::max(length(part.centre), length(part.u));
-  const Vec3d centre = part.centre * size, u = (part.u * cs + part.v * sn) * size, v = (part.v * cs - part.u * sn) * size;
-  const std::array<double, numbers> all{centre.x, centre.y, centre.z, u.x, u.y,
-                                        u.z,      v.x,      v.y,      v.z, std::tan(0.25 * (part.end - part.begin))};
-  for (std::size_t k = 0; k < numbers; ++k) arc[k][index * points_at_once + point] = all[k];
+// Sine and cosine are turned from part to part.
+void ArcTable::put(std::size_t first, std::size_t parts, std::size_t point, const Arc& whole) {
+  const double span = (whole.end - whole.begin) / static_cast<double>(parts), middle = whole.begin + 0.5 * span;
+  const double turn_c = std::cos(span), turn_s = std::sin(span), to_end = std::tan(0.25 * span);
+  double cs = std::cos(middle), sn = std::sin(middle);
+  const double size = whole.unit ? 1 : 1 / std::max(length(whole.centre), length(whole.u));
+  const Vec3d centre = whole.centre * size;
+  for (std::size_t part = first; part < first + parts; ++part) {
+    const Vec3d u = (whole.u * cs + whole.v * sn) * size, v = (whole.v * cs - whole.u * sn) * size;
+    const std::array<double, numbers> all{centre.x, centre.y, centre.z, u.x, u.y, u.z, v.x, v.y, v.z, to_end};
+    for (std::size_t k = 0; k < numbers; ++k) arc[k][part * points_at_once + point] = all[k];
+    const double next = cs * turn_c - sn * turn_s;
+    sn = sn * turn_c + cs * turn_s, cs = next;
+  }
 }
 
 void fill_arcs(const OutlinedLight& light, const PlaceBlock& places, std::size_t count, ArcTable& table) {
@@ -79,19 +94,14 @@ void fill_arcs(const OutlinedLight& light, const PlaceBlock& places, std::size_t
     std::size_t arcs = 0, level = 0;
     for (const Arc& arc : seen.lit) {
       const bool horizon = along_horizon(arc);
-      const int parts = std::max(1, static_cast<int>(std::ceil((arc.end - arc.begin) / ((arc.unit ? 0.5 : 0.25) * pi) - 1e-9)));
-      const double span = (arc.end - arc.begin) / parts;
-      for (int k = 0; k < parts; ++k) {
-        Arc part = arc;
-        part.begin = arc.begin + k * span, part.end = part.begin + span;
-        std::size_t& found = horizon ? level : arcs;
-        if (found == (horizon ? ArcTable::along_horizon : ArcTable::most_arcs)) {
-          table.doubtful[i] = true;
-        } else {
-          table.put(horizon ? ArcTable::most_arcs + found : found, i, part);
-          ++found;
-        }
+      const std::size_t parts = parts_of(arc), most = horizon ? ArcTable::along_horizon : ArcTable::most_arcs;
+      std::size_t& found = horizon ? level : arcs;
+      if (found + parts > most) {
+        table.doubtful[i] = true;
+        continue;
       }
+      table.put(horizon ? ArcTable::most_arcs + found : found, parts, i, arc);
+      found += parts;
     }
     table.arcs = std::max(table.arcs, arcs);
   }

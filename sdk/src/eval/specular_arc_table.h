@@ -22,7 +22,8 @@ struct ArcTable {
   std::array<double, points_at_once> illuminance;                  // of a luminance of 1
   std::array<bool, points_at_once> inside, doubtful;               // the middle of the lobe is within the light
 
-  void put(std::size_t index, std::size_t point, const Arc& part);
+  // An arc in as many parts, of that point, from `first` on.
+  void put(std::size_t first, std::size_t parts, std::size_t point, const Arc& whole);
 };
 void fill_arcs(const OutlinedLight& light, const PlaceBlock& places, std::size_t count, ArcTable& table);
 

@@ -163,16 +163,17 @@ class BlockWithin {
       return;
     }
     if (to - from > most_cells) return;
-    // Cells that are left as they are take half of what those before have not taken.
-    const float left = 1 - excess(sums[point].shape_error, sums[point].risen_error),
-                acceptable = 0.5f * left / static_cast<float>(to - from);
-    for (std::size_t i = from; i < to; ++i) {
-      if (excess(cells_->shape_error[i], cells_->risen_error[i]) <= acceptable) {
-        sums[point].add(*cells_, i);
-      } else {
-        halve(point, i);
-      }
+    // Those that err least are left as they are, as many as take half of what those before have not taken.
+    std::array<std::pair<float, std::size_t>, most_cells> order;
+    for (std::size_t i = from; i < to; ++i) order[i - from] = {excess(cells_->shape_error[i], cells_->risen_error[i]), i};
+    std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(to - from));
+    float left = 0.5f * (1 - excess(sums[point].shape_error, sums[point].risen_error));
+    std::size_t halved = to - from;
+    for (std::size_t k = 0; k < to - from && (left -= order[k].first) >= 0; ++k) {
+      sums[point].add(*cells_, order[k].second);
+      --halved;
     }
+    for (std::size_t k = to - from - halved; k < to - from; ++k) halve(point, order[k].second);
   }
   void halve(std::size_t point, std::size_t i) {
     const SpanOfX x{cells_->origin[i], cells_->x0[i], cells_->x1[i]};
