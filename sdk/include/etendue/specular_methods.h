@@ -17,10 +17,10 @@ struct SpecularMethod {
   std::string_view source;  // authors, year, equation or listing
   std::string_view note;    // what it approximates, where it breaks
   // Towards the view, cd/m2. Nothing if the method does not take the emitter or the BRDF: uniform area lights without a window, of the
-  // shapes that it is published for; a round lobe without compensation, height-correlated GGX with Schlick's Fresnel (GgxLobe, or such a
-  // SpecularLobe) for transformed cosines and moments, GGX of any masking and Fresnel term for the others, and any distribution for
-  // Drobot's and `punctual`. Dark from behind a flat light. Where a printed form divides by zero or leaves the domain of its functions the
-  // answer is 0.
+  // shapes that it is published for, lines too by `moments` and most transformed cosines; a round lobe without compensation,
+  // height-correlated GGX with Schlick's Fresnel (GgxLobe, or such a SpecularLobe) for transformed cosines and moments, GGX of any masking
+  // and Fresnel term for the others, and any distribution for Drobot's and `punctual`. Dark from behind a flat light. Where a printed form
+  // divides by zero or leaves the domain of its functions the answer is 0.
   std::optional<Rgb> (*luminance)(const Emitter&, const ShadingPoint&) = nullptr;
 };
 

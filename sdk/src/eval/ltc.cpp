@@ -4,6 +4,7 @@
 #include "fresnel.h"
 #include "hill_heitz.h"
 #include "illuminance.h"
+#include "specular_line.h"
 #include "specular_view.h"
 #include "transformed_contour.h"
 
@@ -104,7 +105,7 @@ struct Covered {
   }
   double operator()() const {
     const LocalFrame local(point.position, point.normal);
-    const Horizons horizons = horizons_of(local, point.normal, point.surface_normal);
+    const Horizons horizons = this->horizons(local);
     const Transform linear = through(local);
     const auto* polygon = std::get_if<PolygonEmitter>(&emitter.shape);
     if (polygon != nullptr && !(horizons.distinct && real_horizon)) return covered(*polygon, local, linear);
@@ -121,8 +122,9 @@ struct Covered {
   }
   Vec3d irradiance() const {
     const LocalFrame local(point.position, point.normal);
-    return irradiance(local, horizons_of(local, point.normal, point.surface_normal), through(local));
+    return irradiance(local, horizons(local), through(local));
   }
+  Horizons horizons(const LocalFrame& local) const { return horizons_of(local, point.normal, point.surface_normal); }
   // Of a cap, cut at the surface's horizon alone: below its own horizon the cosine counts as negative, which is little where a lobe is, and
   // nearer on the mean than none. Nothing once all of the light is below the surface's horizon.
   double share_as_cap() const {
@@ -151,43 +153,55 @@ struct Covered {
   }
 };
 
-// One cosine, Schlick's term at one direction: that of the vector irradiance, brought back from the cosine's space.
-Rgb at_representative(const Covered& light, const LtcLobe& fit, const GgxLobe& lobe) {
-  const Vec3d irradiance = light.irradiance();
-  if (!(irradiance.z > 0)) return {};
+// Schlick's weight at the direction that goes to `there` in the cosine's space.
+double weight_towards(const Vec3d& there, const TransformedCosine& cosine, const Vec3d& view) {
   // Cramer's rule, but for the determinant, which is positive.
-  const auto& [a, b, c] = light.cosine.inverse.columns;
-  const Vec3d l = normalised(Vec3d{dot(cross(b, c), irradiance), dot(cross(c, a), irradiance), dot(cross(a, b), irradiance)});
-  const Vec3d v = light.frame.vector(light.point.view);
-  const Vec3d half = v + l;
-  const double weight = schlick_weight(dot(v, half) / std::max(length(half), 1e-12));
-  const double share = std::min(irradiance.z / (pi * light.cosine.share_above()), 1.0) * fit.albedo;
-  return lobe.f0 * (share * (1 - weight)) + Rgb{1, 1, 1} * (share * lobe.f90 * weight);
+  const auto& [a, b, c] = cosine.inverse.columns;
+  const Vec3d half = view + normalised(Vec3d{dot(cross(b, c), there), dot(cross(c, a), there), dot(cross(a, b), there)});
+  return schlick_weight(dot(view, half) / std::max(length(half), 1e-12));
 }
 
 enum class Form { four_terms, published, one_cosine, representative, two_cosines, two_caps };
 
 std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& point, Form form) {
   const std::optional<GgxLobe> lobe = correlated_ggx(point.brdf);
-  if (!lobe || !is_uniform_area_light(emitter)) return std::nullopt;
+  const LineEmitter* line = plain_line(emitter);
+  if (!lobe || (line == nullptr ? !is_uniform_area_light(emitter) : form == Form::two_caps)) return std::nullopt;
   const ViewFrame frame(point.normal, point.view);
   if (!(frame.cosine > 0)) return Rgb{};
   LtcLobe fit = ltc_table().at(lobe->alpha, frame.cosine);
   if (form == Form::four_terms) fit.whole = four_term_cosine(lobe->alpha, frame.cosine);
   const bool published = form == Form::four_terms || form == Form::published;
   const bool two = form == Form::two_cosines || form == Form::two_caps;
-  if (form == Form::representative) return luminance_of(emitter) * at_representative({emitter, point, frame, fit.whole, true}, fit, *lobe);
+  const Rgb scale = line != nullptr ? line->intensity : luminance_of(emitter);
+  // Integral over the light of the cosine times the direction in its space; the z of that is the light's share, of a line without bound.
+  const auto covered = [&](const TransformedCosine& cosine) {
+    const Covered light{emitter, point, frame, cosine, !published};
+    if (line == nullptr) return light.irradiance() / pi;
+    const LocalFrame local(point.position, point.normal);
+    const std::optional<LineView> seen =
+        published ? line_view(local.point(line->a), local.point(line->b)) : seen_line(*line, local, light.horizons(local));
+    return seen ? cosine_along(*seen, light.through(local)) : Vec3d{};
+  };
+  const auto kept = [&](double share, const TransformedCosine& cosine) {
+    const double above = published ? share : share / cosine.share_above();
+    return line == nullptr && !published ? std::min(above, 1.0) : above;
+  };
   const auto share = [&](const TransformedCosine& cosine) {
     const Covered light{emitter, point, frame, cosine, !published};
     if (form == Form::two_caps) return light.share_as_cap();
-    const double covered = light() / pi;
-    return published ? covered : std::min(covered / cosine.share_above(), 1.0);
+    return kept(line == nullptr ? light() / pi : covered(cosine).z, cosine);
   };
+  if (form == Form::representative) {
+    const Vec3d there = covered(fit.whole);
+    if (!(there.z > 0)) return Rgb{};
+    const double lit = kept(there.z, fit.whole) * fit.albedo, weight = weight_towards(there, fit.whole, frame.vector(point.view));
+    return scale * (lobe->f0 * (lit * (1 - weight)) + Rgb{1, 1, 1} * (lit * lobe->f90 * weight));
+  }
   // f0 (1 - w) + f90 w.
   const double steep = share(two ? fit.steep : fit.whole);
   const double grazing = two && lobe->f90 != 0 ? share(fit.grazing) : steep;
-  return luminance_of(emitter) *
-         (lobe->f0 * ((fit.albedo - fit.f90_albedo) * steep) + Rgb{1, 1, 1} * (lobe->f90 * fit.f90_albedo * grazing));
+  return scale * (lobe->f0 * ((fit.albedo - fit.f90_albedo) * steep) + Rgb{1, 1, 1} * (lobe->f90 * fit.f90_albedo * grazing));
 }
 template <Form form>
 std::optional<Rgb> luminance(const Emitter& emitter, const ShadingPoint& point) {

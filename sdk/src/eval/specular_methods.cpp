@@ -2,6 +2,7 @@
 #include "etendue/specular_methods.h"
 
 #include "karis.h"
+#include "specular_line.h"
 #include "specular_moments.h"
 #include "specular_view.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 std::optional<Rgb> moments(const Emitter& emitter, const ShadingPoint& point) {
   const std::optional<GgxLobe> lobe = correlated_ggx(point.brdf);
+  if (const LineEmitter* line = lobe ? plain_line(emitter) : nullptr) return line->intensity * line_by_moments(*line, point, *lobe);
   if (!lobe || !is_uniform_area_light(emitter)) return std::nullopt;
   return luminance_of(emitter) * by_moments(emitter, point, *lobe);
 }
@@ -40,7 +42,10 @@ constexpr SpecularMethod baseline[] = {
 
 constexpr SpecularMethod ours[] = {
     {"moments", "Etendue",
-     "Exact but for the slow factor of the lobe, which is taken at four places, and for outlines in pieces; no table.", moments},
+     "Exact but for the slow factor of the lobe, which is taken at four places, and for outlines in pieces; no table. Of a line the lobe "
+     "itself at a dozen "
+     "or two places.",
+     moments},
 };
 
 }  // namespace
