@@ -32,7 +32,7 @@ void LayArcSides(const OutlinedLight& light, const ArcTable& table, const PlaceB
         layer.lay(side, arc);
       }
     }
-    layer.illuminance = hn::LoadU(d, table.illuminance.data() + i);
+    if (table.rims) layer.illuminance = hn::LoadU(d, table.illuminance.data() + i);
     const auto marked = [&](const std::array<bool, points_at_once>& marks) {
       HWY_ALIGN std::array<double, hn::MaxLanes(Doubles())> numbers;
       for (std::size_t k = 0; k < hn::Lanes(d); ++k) numbers[k] = marks[i + k] ? 1 : 0;

@@ -27,14 +27,16 @@ struct SeenFrom {
     const Vec3d centre = frame.vector(disk.centre - position), normal = frame.vector(disk.normal);
     const Contour outline = disk_silhouette(centre, normal, disk.radius, two_sided);
     if (outline.empty()) return {};
-    return {clipped(outline, up), hit_disk(centre, normal, disk.radius, Vec3d{}, mirror).has_value()};
+    const double reach = disk.radius * std::sqrt(std::max(1 - normal.z * normal.z, 0.0));
+    return {above_horizon(outline, centre.z - reach), hit_disk(centre, normal, disk.radius, Vec3d{}, mirror).has_value()};
   }
   // From within a tube that emits there too all of the sky is lit.
   Seen operator()(const TubeSeen& tube) const {
     const Vec3d a = frame.vector(tube.a - position), b = frame.vector(tube.b - position);
     const Contour outline = tube_silhouette(a, b, tube.radius, tube.caps);
     if (outline.empty()) return {{}, false, two_sided && inside_tube(a, b, tube.radius, tube.caps)};
-    return {clipped(outline, up), hit_tube({a, b, tube.radius, tube.caps}, Vec3d{}, mirror).has_value()};
+    return {above_horizon(outline, std::min(a.z, b.z) - tube.radius),
+            hit_tube({a, b, tube.radius, tube.caps}, Vec3d{}, mirror).has_value()};
   }
   template <class Other>
   Seen operator()(const Other&) const {
@@ -42,7 +44,8 @@ struct SeenFrom {
   }
 
  private:
-  static constexpr Vec3d up{0, 0, 1};
+  // `lowest`: that of the whole light; where it is above there is nothing to cut.
+  static Contour above_horizon(const Contour& outline, double lowest) { return lowest > 0 ? outline : clipped(outline, Vec3d{0, 0, 1}); }
 };
 
 // Quarters of a turn; eighths of a rim that is close to the point: |b|^2 = m + rho cos s is 0 arcosh(m / rho) beside the arc, and of rules
@@ -90,7 +93,8 @@ void fill_arcs(const OutlinedLight& light, const PlaceBlock& places, std::size_t
     const Vec3d local_view = frame.vector(view);
     const Vec3d mirror{-local_view.x, -local_view.y, local_view.z};
     const Seen seen = std::visit(SeenFrom{position, frame, mirror, light.two_sided}, light.shape);
-    table.illuminance[i] = direction_integral(seen.lit).z, table.inside[i] = seen.inside, table.doubtful[i] = seen.doubtful;
+    if (table.rims) table.illuminance[i] = direction_integral(seen.lit).z;
+    table.inside[i] = seen.inside, table.doubtful[i] = seen.doubtful;
     std::size_t arcs = 0, level = 0;
     for (const Arc& arc : seen.lit) {
       const bool horizon = along_horizon(arc);

@@ -19,7 +19,7 @@ struct ArcTable {
   std::size_t arcs = 0;                                            // along the light, of the point that has most
   bool rims = false;                                               // some are circles in space, of a size of about 1
   std::array<std::vector<double>, numbers> arc;                    // (most_arcs + along_horizon) * points_at_once
-  std::array<double, points_at_once> illuminance;                  // of a luminance of 1
+  std::array<double, points_at_once> illuminance;                  // of a luminance of 1, where there are rims
   std::array<bool, points_at_once> inside, doubtful;               // the middle of the lobe is within the light
 
   // An arc in as many parts, of that point, from `first` on.

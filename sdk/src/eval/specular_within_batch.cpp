@@ -97,7 +97,7 @@ class BlockWithin {
       wanted[i] = !is_far(i) && sure && lit;
     }
     again_.fill(false);
-    refine(std::span(wanted).first(count), plan_.negligible, little_cancelled);
+    refine(std::span(wanted).first(count), plan_.negligible, std::min(little_cancelled, plan_.most_cancelled));
     if (std::find(again_.begin(), again_.end(), true) != again_.end()) {
       wanted = again_;
       refine(std::span(wanted).first(count), plan_.negligible / plan_.most_cancelled, plan_.most_cancelled);
@@ -252,7 +252,7 @@ std::size_t points_of(const OutlinedLight& light) {
 
 CellPlan plan_for(const OutlinedLight& light, double tolerance) {
   // Places of a great circle share their roundings, those of a smaller one have each its own.
-  const float most_cancelled = std::holds_alternative<CornersSeen>(light.shape) ? 64 : tolerance >= 5e-4 ? 16 : 8;
+  const float most_cancelled = std::holds_alternative<CornersSeen>(light.shape) ? 64 : tolerance >= 5e-4 ? 16 : 4;
 
   // Facets may send four times as much of the light elsewhere as at the middle of the lobe (specular_light.cpp).
   return {tolerance, static_cast<float>(neglected * tolerance / 4), most_cancelled, FarOrders(tolerance)};
