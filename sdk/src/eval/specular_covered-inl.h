@@ -41,14 +41,14 @@ HWY_INLINE SolidAngle flat_part(const Vector3& centre, Lanes area, Lanes height)
   const Lanes distance2 = dot(centre, centre), below = hn::MulAdd(number(static_cast<float>(1 / pi)), area, distance2);
   return {centre, hn::Mul(hn::Mul(area, height), hn::Mul(near_inverse_sqrt(Floats(), distance2), rough_inverse(below)))};
 }
-HWY_INLINE SolidAngle covered_part(const PlacedRect& rect, const Vector3& position, Lit& lit) {
+HWY_INLINE SolidAngle covered_part(const PlacedRect& rect, const Vector3& position, const LobeLanes&, Lit& lit) {
   const Floats d;
   const Vector3 centre = towards(d, rect.centre, position);
   const Lanes height = hn::Neg(dot(centre, numbers(d, rect.normal)));
   lit = hn::And(lit, hn::Gt(height, number(0)));
   return flat_part(centre, number(4 * rect.half_x * rect.half_y), height);
 }
-HWY_INLINE SolidAngle covered_part(const PlacedDisk& disk, const Vector3& position, Lit& lit) {
+HWY_INLINE SolidAngle covered_part(const PlacedDisk& disk, const Vector3& position, const LobeLanes&, Lit& lit) {
   const Floats d;
   const Vector3 centre = towards(d, disk.centre, position);
   const Lanes height = hn::Neg(dot(centre, numbers(d, disk.normal)));
@@ -57,16 +57,21 @@ HWY_INLINE SolidAngle covered_part(const PlacedDisk& disk, const Vector3& positi
 }
 HWY_INLINE Vector3 centre_of(const PlacedSphere& sphere, const Vector3& position) { return towards(Floats(), sphere.centre, position); }
 HWY_INLINE Vector3 centre_of(const PlacedSun& sun, const Vector3&) { return numbers(Floats(), sun.towards); }
-HWY_INLINE SolidAngle round_part(const Vector3& centre, float intensity) {
-  return {centre, hn::Mul(number(intensity), rough_inverse(dot(centre, centre)))};
+// Of a sphere what is above the horizon.
+template <class Ball>
+HWY_INLINE SolidAngle covered_part(const Ball& ball, const Vector3& position, const LobeLanes& lobe, Lit&) {
+  const Lanes radius = number(ball.radius), half = number(0.5f);
+  Vector3 centre = centre_of(ball, position);
+  Lanes area = number(static_cast<float>(pi) * ball.radius * ball.radius);
+  const Lanes high = dot(centre, lobe.frame.z);
+  if (HWY_UNLIKELY(!hn::AllTrue(Floats(), hn::Ge(high, radius)))) {
+    const Lanes low = positive(hn::Add(high, radius)), part = hn::Min(hn::Mul(number(0.5f / ball.radius), low), number(1));
+    centre = along(centre, lobe.frame.z, hn::Sub(hn::Max(high, hn::Mul(half, low)), high));
+    area = hn::Mul(hn::Mul(area, square(part)), hn::NegMulAdd(number(2), part, number(3)));
+  }
+  return {centre, hn::Mul(area, rough_inverse(dot(centre, centre)))};
 }
-HWY_INLINE SolidAngle covered_part(const PlacedSphere& sphere, const Vector3& position, Lit&) {
-  return round_part(towards(Floats(), sphere.centre, position), static_cast<float>(pi) * sphere.radius * sphere.radius);
-}
-HWY_INLINE SolidAngle covered_part(const PlacedSun& sun, const Vector3&, Lit&) {
-  return {numbers(Floats(), sun.towards), number(static_cast<float>(pi) * sun.radius * sun.radius)};
-}
-HWY_INLINE SolidAngle covered_part(const PlacedTube& tube, const Vector3& position, Lit&) {
+HWY_INLINE SolidAngle covered_part(const PlacedTube& tube, const Vector3& position, const LobeLanes&, Lit&) {
   const Floats d;
   const Vector3 a = towards(d, tube.a, position), b = towards(d, tube.b, position), span = b - a;
   const Lanes length = near_root(dot(span, span)), radius = number(tube.radius);

@@ -144,7 +144,7 @@ HWY_INLINE Shares shares_by(const Placed& light, const Vector3& position, const 
   if constexpr (rule == PublishedRule::covered_strip)
     return lit_by_strip(lobe, strip_of(light, position, lobe, lit));
   else if constexpr (rule == PublishedRule::covered_lobe)
-    return lit_by_disk(lobe, covered_part(light, position, lit));
+    return lit_by_disk(lobe, covered_part(light, position, lobe, lit));
   else
     return lobe.lit_by(small_light<rule>(light, position, lobe, lit));
 }
