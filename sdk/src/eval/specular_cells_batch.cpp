@@ -209,7 +209,7 @@ HWY_NOINLINE void measure(const SideBlock& block, CellList& cells, std::size_t f
   area_sum = hn::MulAdd(hn::Mul(turn, half_over_pi), all, area_sum);
   // Roundings: of p close to the base, and of all that is added up.
   const Cell middle_p = hn::Sub(one, middle_u), less = hn::Mul(middle_u, hn::Sub(two, middle_u));
-  const Cell rounding = hn::MulAdd(cell_number(1.5e-7f), hn::Mul(hn::Mul(hn::Abs(turn), middle_u), hn::Mul(middle_p, less)),
+  const Cell rounding = hn::MulAdd(cell_number(8e-8f), hn::Mul(hn::Mul(hn::Abs(turn), middle_u), hn::Mul(middle_p, less)),
                                    hn::Mul(cell_number(1e-6f), area_size));
   std::array<Cell, told> t_shape{zero, zero, zero, zero}, t_risen = t_shape;
   each<NT>([&](auto j) ETENDUE_INLINE_LAMBDA {

@@ -252,7 +252,8 @@ std::size_t points_of(const OutlinedLight& light) {
 
 CellPlan plan_for(const OutlinedLight& light, double tolerance) {
   // Places of a great circle share their roundings, those of a smaller one have each its own.
-  const float most_cancelled = std::holds_alternative<CornersSeen>(light.shape) ? 64 : tolerance >= 5e-4 ? 16 : 4;
+  const float most_cancelled =
+      std::holds_alternative<CornersSeen>(light.shape) ? 64.0f : static_cast<float>(std::clamp(4e4 * tolerance, 4.0, 16.0));
 
   // Facets may send four times as much of the light elsewhere as at the middle of the lobe (specular_light.cpp).
   return {tolerance, static_cast<float>(neglected * tolerance / 4), most_cancelled, FarOrders(tolerance)};
