@@ -4,9 +4,10 @@
 //     rms(f - p) sigma + |mean of f - p| mean T,
 // times the area, sigma being T's deviation. f - p is measured at the corners, where it is largest: where it goes with the third
 // derivatives, x (x^2 - 3/5), the root mean square is .38 times the value at the end (of x and y together less), and the mean is what Gauss
-// and Legendre's rule misses, sixth derivatives. Where a horizon cuts the cell, f has a kink, and the corners show less: over straight
-// kinks in all places and directions f - p has up to 1.22 times the largest corner as its root mean square, and .24 times it as its mean.
-// The cell that is furthest off is split into its quarters until the sum of all is below the tolerance.
+// and Legendre's rule misses, sixth derivatives. Where a horizon cuts the cell (or anywhere under a lobe that is folded) f has a kink, and
+// the corners show less: over straight kinks in all places and directions f - p has up to 1.22 times the largest corner as its root mean
+// square, and .24 times it as its mean. The cell that is furthest off is split into its quarters until the sum of all is below the
+// tolerance.
 #include "etendue/picture_light.h"
 
 #include "kernels.h"
@@ -46,6 +47,7 @@ class PicturedLight {
         frame_(shading_basis(point)),
         view_(local(point.view)),
         lambert_(std::get_if<Lambert>(&point.brdf)),
+        folded_(std::holds_alternative<OrenNayar>(point.brdf) || std::holds_alternative<GotandaDiffuse>(point.brdf)),
         corner_(rectangle.uv_frame[0] - point.position),
         u_(rectangle.uv_frame[1]),
         v_(rectangle.uv_frame[2]),
@@ -85,7 +87,7 @@ class PicturedLight {
         for (int c = 0; c < 3; ++c) off[c] = std::max(off[c], std::abs(missed[c]));
       }
     }
-    const Shares& share = dark > 0 && dark < 13 ? kinked : smooth;
+    const Shares& share = folded_ || (dark > 0 && dark < 13) ? kinked : smooth;
     const Rgb error = off * (vec_cast<double>(cell.deviation) * share.rms + mean * share.mean) * area, relative = error * scale_;
     const double doubt = may_hide(side, x, y) ? std::numeric_limits<double>::infinity() : std::max({relative.x, relative.y, relative.z});
     return {level, x, y, sum * area, error, doubt};
@@ -124,6 +126,7 @@ class PicturedLight {
   Basis frame_;
   Vec3d view_;
   const Lambert* lambert_;
+  bool folded_;  // bends within the hemisphere
   Vec3d corner_, u_, v_, normal_;
   double area_, lobe_ = 0;
   Vec3d mirror_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace etendue::eval {
 
@@ -63,27 +64,39 @@ Peak peak_of(const Bent& bent, double begin, double end) {
 }  // namespace
 
 // With psi = psi_0 + w sinh u the lobe, |b|^-4 of a square that is close to (psi - psi_0)^2 + w^2, is a hill in u of the width of 1
-// whatever alpha: cosh^-3 u. Gauss's rule of four over pieces of at most 1.5.
+// whatever alpha: cosh^-3 u. Gauss's rule of four over pieces of at most 1. Where the horizon cuts the line, masking falls within n.l of
+// about alpha: there pieces shrink to a third each until they are as short.
 Rgb line_by_moments(const LineEmitter& line, const ShadingPoint& point, const GgxLobe& lobe) {
   const LocalFrame frame(point);
   const Vec3d view = frame.vector(point.view);
   const std::optional<LineView> seen = seen_line(line, frame, horizons_of(frame, point.normal, point.surface_normal));
   if (!seen || !(view.z > 0)) return {};
   const Brdf brdf = lobe;
-  const Peak peak = peak_of(Bent(*seen, view, std::clamp(lobe.alpha, min_alpha, 1.0)), seen->begin, seen->end);
-  const double first = std::asinh((seen->begin - peak.psi) / peak.width), last = std::asinh((seen->end - peak.psi) / peak.width);
-  constexpr double longest = 1.5;
-  const int pieces = std::max(1, static_cast<int>(std::ceil((last - first) / longest)));
-  const double step = (last - first) / pieces;
+  const double alpha = std::clamp(lobe.alpha, min_alpha, 1.0);
+  const Peak peak = peak_of(Bent(*seen, view, alpha), seen->begin, seen->end);
+  const auto place = [&](double u) { return std::clamp(peak.psi + peak.width * std::sinh(u), seen->begin, seen->end); };
+  const auto turned = [&](double psi) { return std::asinh((psi - peak.psi) / peak.width); };
+  const double first = turned(seen->begin), last = turned(seen->end);
+  const int pieces = std::max(1, static_cast<int>(std::ceil(last - first)));
+  std::vector<double> breaks;
+  for (int i = 0; i <= pieces; ++i) breaks.push_back(first + (last - first) * i / pieces);
+  const auto graded = [&](double end, double next) {
+    if (seen->at(end).z > alpha) return;
+    for (double off = (next - end) / 3; std::abs(off) > 0.3 * alpha; off /= 3) breaks.push_back(turned(end + off));
+  };
+  graded(seen->begin, place(breaks[1]));
+  graded(seen->end, place(breaks[static_cast<std::size_t>(pieces) - 1]));
+  std::sort(breaks.begin(), breaks.end());
   const Gauss<4>& rule = gauss<4>();
   Rgb sum;
-  for (int i = 0; i < pieces; ++i) {
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double step = breaks[i + 1] - breaks[i];
     for (std::size_t k = 0; k < 4; ++k) {
-      const double u = first + (i + rule.x[k]) * step, psi = std::clamp(peak.psi + peak.width * std::sinh(u), seen->begin, seen->end);
-      sum += brdf_cos(brdf, view, seen->at(psi)) * (std::cos(psi) * std::cosh(u) * rule.weight[k]);
+      const double u = breaks[i] + rule.x[k] * step, psi = place(u);
+      sum += brdf_cos(brdf, view, seen->at(psi)) * (std::cos(psi) * std::cosh(u) * rule.weight[k] * step);
     }
   }
-  return sum * (step * peak.width * seen->scale);
+  return sum * (peak.width * seen->scale);
 }
 
 // With p = h (foot + tan(psi) axis) on the line, x along it and P = M^-1 p, whose D has |det| P.z d^3 / (pi |P|^4), d = |p|, and

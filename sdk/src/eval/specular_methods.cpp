@@ -43,8 +43,8 @@ constexpr SpecularMethod baseline[] = {
 constexpr SpecularMethod ours[] = {
     {"moments", "Etendue",
      "Exact but for the slow factor of the lobe, which is taken at four places, and for outlines in pieces; no table. Of a line the lobe "
-     "itself at a dozen "
-     "or two places.",
+     "itself at some "
+     "dozen places.",
      moments},
 };
 
