@@ -86,7 +86,8 @@ struct InVectors {
 };
 constexpr InVectors in_vectors[] = {
     {"ltc", "a transformed cosine from a table of ours, cut at the surface's horizon", false},
-    {"ltc-two-lobes", "a cosine each for what Fresnel's term weighs with f0 and with f90", true},
+    {"ltc-two-lobes", "two cosines, weighed one way for f0 and another for f90", true},
+    {"ltc-two-cosines", "the same two, cut at the surface's horizon alone", true},
     {"ltc-two-caps", "the same two, through a cap of directions instead of the light's outline", true},
     {"moments", "the area under the lobe, its slow factor at four places; no table", true},
 };

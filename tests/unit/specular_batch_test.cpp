@@ -21,7 +21,7 @@ using namespace etendue;
 using namespace etendue::eval;
 using namespace etendue::eval::protocol;
 
-constexpr std::array methods{"ltc", "ltc-two-lobes", "moments"};
+constexpr std::array methods{"ltc", "ltc-two-lobes", "ltc-two-cosines", "moments"};
 
 struct Views {
   FloatPoints surface;

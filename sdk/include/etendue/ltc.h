@@ -26,12 +26,15 @@ struct TransformedCosine {
 // From five terms (LtcTable::Node) of the inverse in the frame of the mirror direction.
 TransformedCosine transformed_cosine(const std::array<double, 5>& terms, double alpha, double cosine);
 
-// Stand-ins for one view and one alpha, in sum over the directions above the horizon: albedo and f90_albedo.
+// Stand-ins for one view and one alpha. With w = (1 - v.h)^5, Schlick's weight, the light is f0 times what the lobe times 1 - w gives and
+// f90 times what the lobe times w does: of each part of the lobe the albedo, and how much of that two cosines have, which both parts share.
 struct LtcLobe {
-  TransformedCosine whole;    // of a lobe that mirrors all
-  TransformedCosine steep;    // of the lobe times 1 - w, w Schlick's weight (1 - v.h)^5
-  TransformedCosine grazing;  // of the lobe times w
-  double albedo = 0, f90_albedo = 0;
+  struct Part {
+    double albedo = 0, of_first = 0;  // the second has the rest; either may be below 0
+  };
+  TransformedCosine whole;  // one for a lobe that mirrors all
+  TransformedCosine first, second;
+  Part f0, f90;
 };
 
 // Fitted over the square of sqrt(alpha) and cos(view), `size` nodes along each, from 0 to 1. Nodes at alpha 0 and cosine 0 stand for
@@ -40,9 +43,8 @@ class LtcTable {
  public:
   // 5 terms of the inverse matrix for directions in the frame whose z is the mirror direction and whose y is across the plane of incidence,
   // which stay smooth and finite there as alpha goes to 0: (0, 0) and (0, 2) times alpha, 1 / (1, 1) over alpha, (2, 0), (2, 2). Then
-  // the directional albedo's parts: f0 * [5] + f90 * [6]. Then 5 terms for each part of the lobe that Schlick's weight makes: steep,
-  // grazing.
-  static constexpr std::size_t terms = 17, albedo = 5, steep = 7, grazing = 12;
+  // the directional albedo's parts: f0 * [5] + f90 * [6]. Then 5 terms for each of the two cosines, and what of the parts is the first's.
+  static constexpr std::size_t terms = 19, albedo = 5, first = 7, second = 12, of_first = 17;
   using Node = std::array<float, terms>;
   static constexpr double lowest_alpha = 1e-4, lowest_cosine = 1e-4;
 
@@ -64,7 +66,8 @@ class LtcTable {
 const LtcTable& ltc_table();
 
 // Height-correlated GGX fitted anew: every node's matrix makes chi^2 = integral of (p - q)^2 / (p + q) over the directions above the
-// horizon smallest, p the lobe or a part of it and q the cosine, both as densities there. `progress`, after each row: false ends the work.
+// horizon smallest, p the lobe and q the cosine, both as densities there; the two cosines do so for the lobes of f0 = 1 and f0 = .04,
+// between nodes too. `progress`, told the share that is done: false ends the work.
 std::optional<LtcTable> fit_ltc(std::uint32_t size, const std::function<bool(double share_done)>& progress = {});
 // How much of the lobe is in other directions than it should be: half the integral of |p - q|. No light's share of the lobe is further off.
 double misplaced_share(const TransformedCosine& whole, double alpha, double view_cosine);

@@ -21,11 +21,11 @@ struct SpecularPoints {
   std::span<const float> vx, vy, vz, alpha;
 };
 
-enum class SpecularRule { ltc, ltc_two_lobes, ltc_two_caps, moments };
+enum class SpecularRule { ltc, ltc_two_lobes, ltc_two_cosines, ltc_two_caps, moments };
 
 class SpecularBatch {
  public:
-  // `ltc`, `ltc-two-lobes`, `ltc-two-caps` and `moments`; nothing for other names.
+  // `ltc`, `ltc-two-lobes`, `ltc-two-cosines`, `ltc-two-caps` and `moments`; nothing for other names.
   static std::optional<SpecularRule> rule_named(std::string_view method);
   // Errors: METHOD_SHAPE: the rule has no vectors for the light: rectangles (not by caps), spheres, disks, suns and tubes with
   // round caps (these not by caps), uniform and without a window.

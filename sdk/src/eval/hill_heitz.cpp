@@ -167,7 +167,7 @@ class FourTerms {
 // A lobe as a cosine, and the albedo that its share of the light multiplies.
 struct CosineLobe {
   explicit CosineLobe(const LobeView& lobe) : frame(lobe.normal, lobe.view), fit(ltc_table().at(lobe.alpha(), frame.cosine)) {
-    albedo = lobe.lobe.f0 * fit.albedo + (Rgb{1, 1, 1} * lobe.lobe.f90 - lobe.lobe.f0) * fit.f90_albedo;
+    albedo = lobe.lobe.f0 * fit.f0.albedo + Rgb{1, 1, 1} * (lobe.lobe.f90 * fit.f90.albedo);
   }
   // Of a world vector.
   Vec3d seen(const Vec3d& v) const { return fit.whole.inverse.vector(frame.vector(v)); }

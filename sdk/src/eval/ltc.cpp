@@ -49,7 +49,7 @@ LtcLobe LtcTable::at(double alpha, double cosine) const {
   const auto cosine_from = [&](std::size_t k) {
     return transformed_cosine({term(k), term(k + 1), term(k + 2), term(k + 3), term(k + 4)}, a, std::clamp(cosine, 0.0, 1.0));
   };
-  return {cosine_from(0), cosine_from(steep), cosine_from(grazing), term(albedo) + term(albedo + 1), term(albedo + 1)};
+  return {cosine_from(0), cosine_from(first), cosine_from(second), {term(albedo), term(of_first)}, {term(albedo + 1), term(of_first + 1)}};
 }
 
 const LtcTable& ltc_table() {
@@ -92,6 +92,7 @@ struct Covered {
   const ViewFrame& frame;
   const TransformedCosine& cosine;
   bool real_horizon;
+  bool clamped = true;  // nothing is below the cosine's own horizon; else it is negative there
 
   // From the local frame of the point, in which lights have their outlines, to that of the view and on to the cosine's.
   Transform through(const LocalFrame& local) const {
@@ -108,7 +109,7 @@ struct Covered {
     const Horizons horizons = this->horizons(local);
     const Transform linear = through(local);
     const auto* polygon = std::get_if<PolygonEmitter>(&emitter.shape);
-    if (polygon != nullptr && !(horizons.distinct && real_horizon)) return covered(*polygon, local, linear);
+    if (polygon != nullptr && clamped && !(horizons.distinct && real_horizon)) return covered(*polygon, local, linear);
     return std::max(irradiance(local, horizons, linear).z, 0.0);
   }
   // The integral of the directions that the light covers there: its z is the answer above, and it leads to the light's middle.
@@ -116,7 +117,7 @@ struct Covered {
     Vec3d sum;
     each_outline(emitter, local, [&](const Contour& outline, std::size_t) {
       const Contour seen = transformed(real_horizon ? clipped(outline, horizons) : outline, linear);
-      sum += direction_integral(clipped(seen, Vec3d{0, 0, 1}));
+      sum += direction_integral(clamped ? clipped(seen, Vec3d{0, 0, 1}) : seen);
     });
     return sum;
   }
@@ -161,7 +162,7 @@ double weight_towards(const Vec3d& there, const TransformedCosine& cosine, const
   return schlick_weight(dot(view, half) / std::max(length(half), 1e-12));
 }
 
-enum class Form { four_terms, published, one_cosine, representative, two_cosines, two_caps };
+enum class Form { four_terms, published, one_cosine, representative, two_lobes, two_cosines, two_caps };
 
 std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& point, Form form) {
   const std::optional<GgxLobe> lobe = correlated_ggx(point.brdf);
@@ -172,11 +173,10 @@ std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& poi
   LtcLobe fit = ltc_table().at(lobe->alpha, frame.cosine);
   if (form == Form::four_terms) fit.whole = four_term_cosine(lobe->alpha, frame.cosine);
   const bool published = form == Form::four_terms || form == Form::published;
-  const bool two = form == Form::two_cosines || form == Form::two_caps;
   const Rgb scale = line != nullptr ? line->intensity : luminance_of(emitter);
   // Integral over the light of the cosine times the direction in its space; the z of that is the light's share, of a line without bound.
   const auto covered = [&](const TransformedCosine& cosine) {
-    const Covered light{emitter, point, frame, cosine, !published};
+    const Covered light{emitter, point, frame, cosine, !published, form != Form::two_cosines};
     if (line == nullptr) return light.irradiance() / pi;
     const LocalFrame local(point.position, point.normal);
     const std::optional<LineView> seen =
@@ -188,20 +188,25 @@ std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& poi
     return line == nullptr && !published ? std::min(above, 1.0) : above;
   };
   const auto share = [&](const TransformedCosine& cosine) {
-    const Covered light{emitter, point, frame, cosine, !published};
+    const Covered light{emitter, point, frame, cosine, !published, form != Form::two_cosines};
     if (form == Form::two_caps) return light.share_as_cap();
     return kept(line == nullptr ? light() / pi : covered(cosine).z, cosine);
   };
   if (form == Form::representative) {
     const Vec3d there = covered(fit.whole);
     if (!(there.z > 0)) return Rgb{};
-    const double lit = kept(there.z, fit.whole) * fit.albedo, weight = weight_towards(there, fit.whole, frame.vector(point.view));
+    const double lit = kept(there.z, fit.whole) * (fit.f0.albedo + fit.f90.albedo),
+                 weight = weight_towards(there, fit.whole, frame.vector(point.view));
     return scale * (lobe->f0 * (lit * (1 - weight)) + Rgb{1, 1, 1} * (lit * lobe->f90 * weight));
   }
-  // f0 (1 - w) + f90 w.
-  const double steep = share(two ? fit.steep : fit.whole);
-  const double grazing = two && lobe->f90 != 0 ? share(fit.grazing) : steep;
-  return scale * (lobe->f0 * ((fit.albedo - fit.f90_albedo) * steep) + Rgb{1, 1, 1} * (lobe->f90 * fit.f90_albedo * grazing));
+  const bool two = form == Form::two_lobes || form == Form::two_cosines || form == Form::two_caps;
+  const double first = share(two ? fit.first : fit.whole), second = two ? share(fit.second) : first;
+  // No part of a lobe gives less than nothing, nor has an area light more than all of it.
+  const bool is_bounded = line == nullptr && !published;
+  const auto of_part = [&](const LtcLobe::Part& part) {
+    return std::clamp(part.of_first * first + (part.albedo - part.of_first) * second, 0.0, is_bounded ? part.albedo : HUGE_VAL);
+  };
+  return scale * (lobe->f0 * of_part(fit.f0) + Rgb{1, 1, 1} * (lobe->f90 * of_part(fit.f90)));
 }
 template <Form form>
 std::optional<Rgb> luminance(const Emitter& emitter, const ShadingPoint& point) {
@@ -225,12 +230,16 @@ constexpr SpecularMethod methods[] = {
      "The same, with Schlick's Fresnel at the direction of what the light covers of the cosine, instead of averaged over the lobe.",
      luminance<Form::representative>},
     {"ltc-two-lobes", article,
-     "The same, with one cosine for the part of the lobe that Fresnel's term weighs with f0 and one for that with f90.",
+     "The same, with a sum of two cosines for the part of the lobe that Fresnel's term weighs with f0, and another of the same two for "
+     "that with f90.",
+     luminance<Form::two_lobes>},
+    {"ltc-two-cosines", article,
+     "The same two, negative below their own horizons in place of cut there: cheaper. Lights that fill most of the sky are a little "
+     "too dark.",
      luminance<Form::two_cosines>},
     {"ltc-two-caps", article,
-     "The same two cosines, the light replaced by the cap of the same vector irradiance, which the surface's horizon cuts: cheaper for "
-     "round "
-     "lights. Those that fill most of the sky are too dark, on rough surfaces by up to a third.",
+     "The same, the light replaced by the cap of the same vector irradiance, which the surface's horizon cuts: cheaper for round lights. "
+     "Those that fill most of the sky are too dark, on rough surfaces by up to a third.",
      luminance<Form::two_caps>},
 };
 

@@ -7,15 +7,18 @@
 #include "specular_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace etendue::eval {
 namespace {
 
 constexpr std::pair<std::string_view, SpecularRule> rules[] = {{"ltc", SpecularRule::ltc},
                                                                {"ltc-two-lobes", SpecularRule::ltc_two_lobes},
+                                                               {"ltc-two-cosines", SpecularRule::ltc_two_cosines},
                                                                {"ltc-two-caps", SpecularRule::ltc_two_caps},
                                                                {"moments", SpecularRule::moments}};
 
@@ -71,10 +74,36 @@ SchlickShares in_double(SpecularRule rule, const Emitter& white, const SpecularP
   return {of(1, 0), of(0, 1)};
 }
 
+namespace {
+
+// A cache line a node for the two cosines, half of one for the one; of the two the weights are told for each.
+struct PaddedNodes {
+  explicit PaddedNodes(const LtcTable& table) : whole(table.nodes().size()), pair(table.nodes().size()) {
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      const LtcTable::Node& node = table.nodes()[i];
+      std::copy_n(node.begin(), LtcTable::first, whole[i].numbers.begin());
+      std::copy_n(node.begin() + LtcTable::first, 10, pair[i].numbers.begin());
+      for (std::size_t part = 0; part < 2; ++part) {
+        const float of_first = node[LtcTable::of_first + part];
+        pair[i].numbers[10 + part] = of_first, pair[i].numbers[12 + part] = node[LtcTable::albedo + part] - of_first;
+      }
+    }
+  }
+  struct alignas(32) Whole {
+    std::array<float, LtcNodes::of_whole> numbers{};
+  };
+  struct alignas(64) Pair {
+    std::array<float, LtcNodes::of_pair> numbers{};
+  };
+  std::vector<Whole> whole;
+  std::vector<Pair> pair;
+};
+
+}  // namespace
+
 LtcNodes ltc_nodes() {
-  static_assert(sizeof(LtcTable::Node) == LtcTable::terms * sizeof(float));
-  const LtcTable& table = ltc_table();
-  return {table.nodes().data()->data(), table.size()};
+  static const PaddedNodes nodes(ltc_table());
+  return {nodes.whole.data()->numbers.data(), nodes.pair.data()->numbers.data(), ltc_table().size()};
 }
 
 }  // namespace etendue::eval

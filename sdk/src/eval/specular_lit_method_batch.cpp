@@ -92,9 +92,9 @@ HWY_INLINE Shares lit_from(const Vector3& point, const LobeLanes& lobe, Lanes lu
 }
 // The lobe's albedo, from the nodes of ltc_table().
 HWY_INLINE Shares of_albedo(const LtcNodes& nodes, const LobeLanes& lobe, Lanes share) {
-  const auto terms = between_nodes<1>(nodes, LtcTable::albedo, lobe.alpha, lobe.frame.cosine);
+  const auto terms = between_nodes<1>(nodes.whole, nodes.size, lobe.alpha, lobe.frame.cosine);
   const Lanes kept = hn::IfThenElseZero(hn::Gt(share, number(0)), share);
-  return {hn::Mul(terms[0], kept), hn::Mul(terms[1], kept)};
+  return {hn::Mul(terms[LtcNodes::albedo], kept), hn::Mul(terms[LtcNodes::albedo + 1], kept)};
 }
 HWY_INLINE Lanes tangent_of(Lanes x) { return hn::Div(sine_of(x), cosine_of(x)); }
 
@@ -220,7 +220,7 @@ template <PublishedRule rule>
 HWY_INLINE Shares by_line(const Vector3& a, const Vector3& b, Lanes radius, const LobeLanes& lobe, const LtcNodes& nodes) {
   const Floats d;
   const Lanes zero = number(0);
-  const auto terms = between_nodes<2>(nodes, 0, lobe.alpha, lobe.frame.cosine);
+  const auto terms = between_nodes<1>(nodes.whole, nodes.size, lobe.alpha, lobe.frame.cosine);
   const Cosines m = transformed_cosine(terms.data(), lobe.alpha, lobe.frame);
   const Lanes det = hn::Abs(hn::Mul(m.yy, hn::MulSub(m.xx, m.zz, hn::Mul(m.xz, m.zx))));
   const Vector3 plane = cross(a, b - a);

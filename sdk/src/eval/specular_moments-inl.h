@@ -189,6 +189,7 @@ HWY_INLINE Shares by_moments(const ViewFrame& frame, Lanes alpha, const Vector3&
   return shares_of(sums, alpha, frame);
 }
 struct ByMoments {
+  static constexpr bool in_units = true;
   template <std::size_t N>
   HWY_INLINE Shares operator()(const ViewFrame& frame, Lanes alpha, const Outline<N>& light) const {
     const Lanes over_alpha = inverse(Floats(), alpha);

@@ -20,6 +20,7 @@ namespace etendue::eval {
 struct SpecularRect {
   std::array<Place, 4> corners;  // counter-clockwise about the directions between them, as seen from the front
   Direction normal;
+  float area;
   const Emitter& white;
 };
 }  // namespace etendue::eval
@@ -29,7 +30,7 @@ HWY_BEFORE_NAMESPACE();
 namespace etendue::eval::HWY_NAMESPACE {
 namespace {
 
-// of(frame, alpha, outline): the shares of the light's outline above the horizon, unit vectors in the view's frame.
+// of(frame, alpha, outline): the shares of the light's outline above the horizon, in the view's frame; unit vectors if Of::in_units.
 template <class Of>
 class RectLobe {
  public:
@@ -47,13 +48,15 @@ class RectLobe {
       const Vector3 second = corners[1];
       corners[1] = chosen(back, corners[3], second), corners[3] = chosen(back, second, corners[3]);
     }
-    each<4>([&](auto i) ETENDUE_INLINE_LAMBDA { corners[i] = unit(frame(corners[i])); });
+    const Lanes over_distance = near_inverse_sqrt(d, dot(corners[0], corners[0]));
+    each<4>([&](auto i)
+                ETENDUE_INLINE_LAMBDA { corners[i] = Of::in_units ? unit(frame(corners[i])) : frame(scaled(corners[i], over_distance)); });
     const Outline<4> whole = outline_of(corners);
     const Shares shares = hn::AllTrue(d, all_above(whole)) ? of_(frame, alpha, whole) : of_(frame, alpha, clipped(whole));
     const Lit lit = hn::And(hn::Gt(frame.cosine, zero), light_.white.two_sided ? hn::Or(front, back) : front);
-    const Vector3 across = corners[2] - corners[0], along = corners[3] - corners[1];
-    const Lanes size2 = hn::Min(dot(across, across), dot(along, along));
-    doubtful = hn::And(lit, hn::Lt(size2, number(least_angle * least_angle)));
+    // Of what is small all over or in one direction: the solid angle, all but for a factor.
+    const Lanes flat = hn::Mul(hn::Abs(height), over_distance), size2 = hn::Mul(number(light_.area), hn::Mul(over_distance, over_distance));
+    doubtful = hn::And(lit, hn::Not(hn::Ge(hn::Mul(flat, size2), number(least_angle * least_angle))));
     return {hn::IfThenElseZero(lit, shares.of_f0), hn::IfThenElseZero(lit, shares.of_f90)};
   }
 
@@ -68,6 +71,7 @@ std::size_t OverSpecularRect(SpecularRule rule, const SpecularRect& light, const
   const auto with = [&](auto of) { return over_views(points, of_f0, of_f90, where_none, RectLobe(light, of), exact); };
   if (rule == SpecularRule::ltc) return with(ThroughTable<false>{nodes});
   if (rule == SpecularRule::ltc_two_lobes) return with(ThroughTable<true>{nodes});
+  if (rule == SpecularRule::ltc_two_cosines) return with(ByTwoCosines{nodes});
   return with(ByMoments{});
 }
 
@@ -87,7 +91,10 @@ class RectLight final : public SpecularBatch::Light {
   std::size_t over(SpecularRule rule, const SpecularPoints& points, std::span<float> of_f0, std::span<float> of_f90,
                    float where_none) const override {
     const auto corner = [&](double x, double y) { return Place(view_.at(x * view_.half_x, y * view_.half_y) - points.surface.origin); };
-    const SpecularRect rect{{corner(-1, -1), corner(-1, 1), corner(1, 1), corner(1, -1)}, Direction(view_.normal), white_};
+    const SpecularRect rect{{corner(-1, -1), corner(-1, 1), corner(1, 1), corner(1, -1)},
+                            Direction(view_.normal),
+                            static_cast<float>(4 * view_.half_x * view_.half_y),
+                            white_};
     return HWY_DYNAMIC_DISPATCH(OverSpecularRect)(rule, rect, ltc_nodes(), points, of_f0, of_f90, where_none);
   }
 

@@ -166,7 +166,8 @@ bool is_round(const Emitter& emitter) {
 }
 
 std::shared_ptr<const SpecularBatch::Light> specular_round(SpecularRule rule, const Emitter& white) {
-  return is_round(white) && rule != SpecularRule::moments ? std::make_shared<RoundLight>(white) : nullptr;
+  const bool has_vectors = rule != SpecularRule::moments && rule != SpecularRule::ltc_two_cosines;
+  return is_round(white) && has_vectors ? std::make_shared<RoundLight>(white) : nullptr;
 }
 
 }  // namespace etendue::eval
