@@ -28,7 +28,7 @@ class SpecularBatch {
   // `ltc`, `ltc-two-lobes`, `ltc-two-cosines`, `ltc-two-caps` and `moments`; nothing for other names.
   static std::optional<SpecularRule> rule_named(std::string_view method);
   // Errors: METHOD_SHAPE: the rule has no vectors for the light: rectangles (not by caps), spheres, disks, suns and tubes with
-  // round caps (these not by caps), uniform and without a window.
+  // round caps (these not by caps), uniform and without a window; `ltc-two-cosines` rectangles alone.
   static Result<SpecularBatch> of(SpecularRule rule, const Emitter& emitter);
 
   // Of each point the luminance for a light of 1 cd/m2, as factors on f0 and on f90: what the method gives in double, but for roundings of
