@@ -93,4 +93,28 @@ TEST(CoveredStrip, IsInProportionToAThinTubesWidth) {
   EXPECT_GT(value(1e-4), 0);
 }
 
+// By the protocol of specular.md it is .09 to .16 on either side of the horizon.
+TEST(CoveredFootprint, IsAsFarOffAsItSays) {
+  for (const Kind kind : {Kind::rect, Kind::sphere}) {
+    for (const double f0 : {1.0, 0.04}) {
+      EXPECT_LT(aggregate_error("covered-footprint", kind, true, f0, 33), 0.25) << f0;
+      EXPECT_LT(aggregate_error("covered-footprint", kind, false, f0, 34), 0.25) << f0;
+    }
+  }
+}
+// Of a light that is all the lobe sees the lobe's albedo, and nothing of one that has set, however rough.
+TEST(CoveredFootprint, IsTheAlbedoOfWhatIsFilledAndNothingOfWhatHasSet) {
+  for (const double cosine : {1.0, 0.4}) {
+    const double sine = std::sqrt(1 - cosine * cosine);
+    const ShadingPoint smooth{{}, {0, 0, 1}, {0, 0, 1}, {sine, 0, cosine}, GgxLobe{0.002, {0.04, 0.04, 0.04}}};
+    const Vec3d to{-sine, 0, cosine};
+    const Basis b = basis_around(-to);
+    for (const Emitter& light : {white(SphereEmitter{to * 2, 1}), white(rectangle(to * 2, b.tangent, b.bitangent, 2, 2))})
+      EXPECT_NEAR(by("covered-footprint", light, smooth) / reference(light, smooth, {1e-5, 1e-9}).value.x, 1, 0.02) << cosine;
+    const ShadingPoint rough{{}, {0, 0, 1}, {0, 0, 1}, {sine, 0, cosine}, GgxLobe{1, {1, 1, 1}}};
+    EXPECT_EQ(by("covered-footprint", white(SphereEmitter{{-2, 0, -1.1}, 1}), rough), 0);
+    EXPECT_EQ(by("covered-footprint", white(rectangle({-2, 0, -1.1}, {0, 0, 1}, {0, -1, 0}, 2, 2)), rough), 0);
+  }
+}
+
 }  // namespace

@@ -1,5 +1,6 @@
 // Ours for as little time as the cheapest published ones: the light as a disk or a strip of half vectors, whose share of the lobe has a
 // closed form.
+#include "etendue/directional_albedo.h"
 #include "karis.h"
 #include "microfacet.h"
 #include "specular_view.h"
@@ -15,13 +16,16 @@ namespace {
 // D n.h dh is uniform, and a disk is that of a cap: with q the slope of the centre and r the disk's radius its share is
 //     (1 - t / sqrt(t^2 + 4 alpha^2 r^2)) / 2,   t = q^2 + alpha^2 - r^2.
 // What else the lobe has (W of specular_moments.cpp) is slow, is taken at the centre, and is 1 at most.
+double disk_share(double off2, double width2, double r2) {
+  const double t = off2 + width2 - r2, root = std::sqrt(t * t + 4 * width2 * r2);
+  return t > 0 ? 2 * width2 * r2 / (root * (root + t)) : 0.5 * (1 - t / root);
+}
 Rgb covered_lobe(const LobeView& lobe, const Vec3d& centre, double solid_angle) {
   const Vec3d v = lobe.frame.vector(lobe.view), l = lobe.frame.vector(normalised(centre));
   if (!(l.z > 0 && dot(lobe.surface_normal, centre) > 0)) return {};
   const HalfAngle h = half_angle(v, l);
   const double cosine = std::sqrt(h.cos2), alpha2 = lobe.alpha() * lobe.alpha();
-  const double r2 = solid_angle / (4 * pi * h.v_dot_h * h.cos2 * cosine), t = h.sin2 / h.cos2 + alpha2 - r2;
-  const double root = std::sqrt(t * t + 4 * alpha2 * r2), share = t > 0 ? 2 * alpha2 * r2 / (root * (root + t)) : 0.5 * (1 - t / root);
+  const double r2 = solid_angle / (4 * pi * h.v_dot_h * h.cos2 * cosine), share = disk_share(h.sin2 / h.cos2, alpha2, r2);
   const double slow = 4 * h.v_dot_h / cosine * l.z * GgxView(lobe.alpha(), lobe.lobe.masking, v).masked(l.z);
   return fresnel_reflectance(lobe.lobe, h.v_dot_h) * (share * std::min(slow, 1.0));
 }
@@ -159,6 +163,36 @@ Rgb rect_strip(const RectView& rect, const LobeView& lobe) {
 Rgb disk_strip(const DiskView& disk, const LobeView& lobe) {
   return strip_across(disk, normalised(towards_mirror(disk, basis_around(disk.normal).tangent, lobe)) * disk.radius, lobe);
 }
+// All that the lobe mirrors, its albedo, times what the light has of the lobe about the mirrored view, whose width is 2 alpha in the plane
+// of incidence and 2 alpha n.v across it: of one width for both, 2 alpha (n.v)^(1/4), the mean of the former and of both. Where the
+// mirrored view r meets a rectangle's plane at the distance D it is D times that and, along a side x, sqrt(1 + (r.x / r.n)^2) times that;
+// along each side there is x / sqrt(w^2 + x^2) of it between both ends, as if they were independent. Karis' billboard and cone, with the
+// lobe's shape.
+double footprint2(const LobeView& lobe) { return 4 * lobe.alpha() * lobe.alpha() * std::sqrt(dot(lobe.normal, lobe.view)); }
+Rgb rect_footprint(const RectView& rect, const LobeView& lobe) {
+  const Vec3d &r = lobe.mirror, &n = lobe.normal;
+  const double falling = -dot(r, rect.normal);
+  const double top = dot(n, rect.centre) + rect.half_x * std::abs(dot(n, rect.x)) + rect.half_y * std::abs(dot(n, rect.y));
+  if (!(falling > 0 && top > 0)) return {};
+  const double distance = rect.height() / falling;
+  const Vec3d at = r * distance - rect.centre;
+  const auto seen = [&](const Vec3d& side, double half) {
+    const double off = dot(at, side), slant = dot(r, side) / falling, w2 = footprint2(lobe) * distance * distance * (1 + slant * slant);
+    const auto part = [w2](double s) { return s / std::sqrt(s * s + w2); };
+    return 0.5 * (part(off + half) - part(off - half));
+  };
+  const double share = seen(rect.x, rect.half_x) * seen(rect.y, rect.half_y);
+  return reflectance(lobe.lobe, lobe.frame.vector(lobe.view), 1e-4).value * share;
+}
+// Of a sphere by chords between directions, on which disks are disks.
+Rgb round_footprint(const SphereView& sphere, const LobeView& lobe) {
+  const double distance = length(sphere.centre), sine = sphere.radius / distance, sine2 = std::min(sine * sine, 1.0);
+  const Vec3d l = sphere.centre * (1 / distance), off = l - lobe.mirror;
+  if (!(dot(l, lobe.normal) + sine > 0)) return {};
+  const double share = disk_share(dot(off, off), footprint2(lobe), 2 * sine2 / (1 + std::sqrt(1 - sine2)));
+  return reflectance(lobe.lobe, lobe.frame.vector(lobe.view), 1e-4).value * share;
+}
+constexpr SpecularRules footprint_rules{.rect = rect_footprint, .sphere = round_footprint, .sun = round_footprint};
 constexpr SpecularRules strip_rules{.rect = rect_strip, .disk = disk_strip, .sphere = round_strip, .tube = tube_strip, .sun = round_strip};
 constexpr SpecularRules covered_rules{
     .rect = flat_part<RectView>, .disk = flat_part<DiskView>, .sphere = round_part, .tube = tube_part, .sun = round_part};
@@ -172,6 +206,11 @@ constexpr SpecularMethod methods[] = {
      "them; cut "
      "at the horizon.",
      published<strip_rules>},
+    {"covered-footprint", "Etendue",
+     "The lobe's albedo times the share of a lobe about the mirrored view that a sphere or rectangle fills, with the shape of GGX; no "
+     "light "
+     "on a rectangle where the mirrored view leads away.",
+     published<footprint_rules>},
 };
 
 }  // namespace

@@ -79,19 +79,22 @@ HWY_INLINE SolidAngle covered_part(const PlacedTube& tube, const Vector3& positi
   const Lanes intensity = hn::Mul(radius, hn::MulAdd(number(2), length, hn::Mul(number(static_cast<float>(pi)), radius)));
   return {centre, hn::Mul(intensity, rough_inverse(dot(centre, centre)))};
 }
+// disk_share of covered.cpp.
+HWY_INLINE Lanes disk_share(Lanes off2, Lanes width2, Lanes r2) {
+  const Lanes t = hn::Sub(hn::Add(off2, width2), r2), rest = hn::Mul(hn::Mul(number(4), width2), r2);
+  const Lanes length2 = hn::Max(hn::MulAdd(t, t, rest), number(1e-30f)), over_length = near_inverse_sqrt(Floats(), length2);
+  const Lanes longer = hn::MulAdd(length2, over_length, hn::Abs(t));
+  const Lanes above = hn::IfThenElse(hn::Gt(t, number(0)), hn::Mul(rest, rough_inverse(longer)), longer);
+  return hn::Mul(hn::Mul(number(0.5f), above), over_length);
+}
 HWY_INLINE Shares lit_by_disk(const LobeLanes& lobe, const SolidAngle& light) {
-  const Floats d;
   const Vector3 l = unit(light.direction);
   const Halfway at(lobe, l);
   // v.h = |v + l| / 2 and n.h = n.(v + l) / |v + l| leave no root.
   const Vector3 across = along(at.sum, lobe.frame.z, hn::Neg(at.z));
   const Lanes alpha2 = square(lobe.alpha), over_z = rough_inverse(at.z), over_z2 = square(over_z), bent = hn::Mul(at.total, over_z);
   const Lanes r2 = hn::Mul(hn::Mul(light.size, number(static_cast<float>(0.5 / pi))), hn::Mul(bent, over_z2));
-  const Lanes t = hn::Sub(hn::MulAdd(dot(across, across), over_z2, alpha2), r2), rest = hn::Mul(hn::Mul(number(4), alpha2), r2);
-  const Lanes length2 = hn::Max(hn::MulAdd(t, t, rest), number(1e-30f)), over_length = near_inverse_sqrt(d, length2);
-  const Lanes longer = hn::MulAdd(length2, over_length, hn::Abs(t));
-  const Lanes above = hn::IfThenElse(hn::Gt(t, number(0)), hn::Mul(rest, rough_inverse(longer)), longer);
-  const Lanes value = hn::Mul(hn::Mul(hn::Mul(number(0.5f), above), over_length), slow_part<false>(lobe, at, bent));
+  const Lanes value = hn::Mul(disk_share(hn::Mul(dot(across, across), over_z2), alpha2, r2), slow_part<false>(lobe, at, bent));
   return LobeLanes::split(value, near_root(at.total), hn::Gt(at.rise, number(0)));
 }
 
@@ -276,6 +279,11 @@ HWY_INLINE FlatStrip strip_of(const PlacedDisk& disk, const Vector3& position, c
   return flat_strip(centre, to, over, hn::Mul(number(static_cast<float>(pi) * disk.radius * disk.radius), height), lobe, lit);
 }
 
+// Twice s / sqrt(s^2 + w^2), a step of Newton's.
+HWY_INLINE Lanes part(Lanes s, Lanes w2) {
+  const Lanes square = hn::MulAdd(s, s, w2), guess = near_inverse_sqrt(Floats(), square);
+  return hn::Mul(hn::Mul(s, guess), hn::NegMulAdd(hn::Mul(square, guess), guess, number(3)));
+}
 template <class Strip>
 HWY_INLINE Shares lit_by_strip(const LobeLanes& lobe, const Strip& strip) {
   const Floats d;
@@ -314,11 +322,6 @@ HWY_INLINE Shares lit_by_strip(const LobeLanes& lobe, const Strip& strip) {
   const Lanes aside = hn::Mul(near_inverse_sqrt(d, gone2), over_z);
   const Lanes quarter = hn::Mul(strip.quarter_width(place), aside);
   Lanes begin = hn::Mul(behind, over_length), end = hn::Mul(hn::Add(behind, length2), over_length);
-  // Twice s / sqrt(s^2 + w^2), a step of Newton's.
-  const auto part = [&](Lanes s, Lanes w2) ETENDUE_INLINE_LAMBDA {
-    const Lanes square = hn::MulAdd(s, s, w2), guess = near_inverse_sqrt(d, square);
-    return hn::Mul(hn::Mul(s, guess), hn::NegMulAdd(hn::Mul(square, guess), guess, number(3)));
-  };
   Lanes across, from_middle2 = alpha2;
   if constexpr (Strip::rounded) {
     const Lanes w = hn::Mul(quarter, hn::Mul(bent, place.turned2()));
@@ -335,6 +338,40 @@ HWY_INLINE Shares lit_by_strip(const LobeLanes& lobe, const Strip& strip) {
   const Lanes lengthwise = hn::Sub(part(end, wider2), part(begin, wider2));
   const Lanes value = hn::Mul(hn::Mul(across, lengthwise), hn::Mul(slow_part<!Strip::rounded>(lobe, at, bent), number(0.0625f)));
   return LobeLanes::split(value, near_root(at.total), hn::Gt(at.rise, zero));
+}
+
+// ---- The lobe's footprint ----
+
+// The square of its width, as a tangent.
+HWY_INLINE Lanes footprint2(const LobeLanes& lobe) { return hn::Mul(hn::Mul(number(4), square(lobe.alpha)), hn::Sqrt(lobe.frame.cosine)); }
+// What the light has of it.
+HWY_INLINE Lanes footprint_share(const PlacedRect& rect, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
+  const Floats d;
+  const Lanes zero = number(0), half_x = number(rect.half_x), half_y = number(rect.half_y);
+  const Vector3 centre = towards(d, rect.centre, position), normal = numbers(d, rect.normal), x = numbers(d, rect.x),
+                y = numbers(d, rect.y);
+  const Vector3 &n = lobe.frame.z, mirror = mirrored(lobe);
+  const Lanes height = hn::Neg(dot(centre, normal)), falling = hn::Neg(dot(mirror, normal));
+  const Lanes top = hn::MulAdd(half_x, hn::Abs(dot(n, x)), hn::MulAdd(half_y, hn::Abs(dot(n, y)), dot(n, centre)));
+  lit = hn::And(hn::And(lit, hn::Gt(top, zero)), hn::And(hn::Gt(height, zero), hn::Gt(falling, zero)));
+  const Lanes over = inverse(d, hn::Max(falling, number(1e-10f))), distance = hn::Mul(height, over);
+  const Vector3 at = scaled(mirror, distance) - centre;
+  const Lanes slant = hn::Mul(distance, over), width2 = footprint2(lobe), distance2 = square(distance);
+  const auto seen = [&](const Vector3& side, Lanes half) ETENDUE_INLINE_LAMBDA {
+    const Lanes off = dot(at, side), w2 = hn::Mul(width2, hn::MulAdd(square(dot(mirror, side)), square(slant), distance2));
+    return hn::Sub(part(hn::Add(off, half), w2), part(hn::Sub(off, half), w2));
+  };
+  return hn::Mul(number(1.0f / 16), hn::Mul(seen(x, half_x), seen(y, half_y)));
+}
+template <class Ball>
+HWY_INLINE Lanes footprint_share(const Ball& ball, const Vector3& position, const LobeLanes& lobe, Lit& lit) {
+  const Lanes one = number(1);
+  const Vector3 centre = centre_of(ball, position);
+  const Lanes over = inverse_length(centre), sine = hn::Mul(number(ball.radius), over), sine2 = hn::Min(square(sine), one);
+  const Vector3 l = scaled(centre, over), off = l - mirrored(lobe);
+  lit = hn::And(lit, hn::Gt(hn::Add(dot(l, lobe.frame.z), sine), number(0)));
+  const Lanes chord2 = hn::Mul(hn::Add(sine2, sine2), rough_inverse(hn::Add(one, hn::Sqrt(hn::Sub(one, sine2)))));
+  return disk_share(dot(off, off), footprint2(lobe), chord2);
 }
 
 }  // namespace etendue::eval::HWY_NAMESPACE

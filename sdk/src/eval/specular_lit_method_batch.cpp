@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include "eval/ltc-inl.h"
+#include "eval/specular_covered-inl.h"
 #include "eval/specular_method-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -105,6 +106,7 @@ HWY_INLINE RectLanes lanes_of(const PlacedRect& rect, const Vector3& position, c
 }
 template <PublishedRule rule>
 HWY_INLINE Shares lit_by_light(const PlacedRect& light, const Vector3& position, const LobeLanes& lobe, const LtcNodes& nodes, Lit& lit) {
+  if constexpr (rule == covered_footprint) return of_albedo(nodes, lobe, footprint_share(light, position, lobe, lit));
   const Lanes zero = number(0), one = number(1);
   const RectLanes rect = lanes_of(light, position, lobe.frame);
   const Lanes height = rect.height();
@@ -160,7 +162,9 @@ HWY_INLINE Shares of_cone(const Vector3& centre, Lanes sine, const LobeLanes& lo
 }
 HWY_INLINE Lanes gathered(Lanes alpha, Lanes radius, Lanes over) { return hn::Div(alpha, widened(alpha, radius, over)); }
 template <PublishedRule rule>
-HWY_INLINE Shares lit_by_light(const PlacedSphere& sphere, const Vector3& position, const LobeLanes& lobe, const LtcNodes& nodes, Lit&) {
+HWY_INLINE Shares lit_by_light(const PlacedSphere& sphere, const Vector3& position, const LobeLanes& lobe, const LtcNodes& nodes,
+                               Lit& lit) {
+  if constexpr (rule == covered_footprint) return of_albedo(nodes, lobe, footprint_share(sphere, position, lobe, lit));
   const Vector3 centre = lobe.frame(towards(Floats(), sphere.centre, position));
   const Lanes radius = number(sphere.radius), over = inverse_length(centre), sine = hn::Mul(radius, over);
   if constexpr (rule == karis_cone) {
@@ -171,7 +175,8 @@ HWY_INLINE Shares lit_by_light(const PlacedSphere& sphere, const Vector3& positi
   }
 }
 template <PublishedRule rule>
-HWY_INLINE Shares lit_by_light(const PlacedSun& sun, const Vector3&, const LobeLanes& lobe, const LtcNodes& nodes, Lit&) {
+HWY_INLINE Shares lit_by_light(const PlacedSun& sun, const Vector3& position, const LobeLanes& lobe, const LtcNodes& nodes, Lit& lit) {
+  if constexpr (rule == covered_footprint) return of_albedo(nodes, lobe, footprint_share(sun, position, lobe, lit));
   const Floats d;
   const Vector3 centre = lobe.frame(numbers(d, sun.towards)), mirror = lobe.mirror();
   const Lanes sine = number(sun.radius);
@@ -285,7 +290,7 @@ std::size_t by_rule(PublishedRule rule, const Placed& light, const LtcNodes& nod
 }
 std::size_t OverLitRect(PublishedRule rule, const PlacedRect& light, const LtcNodes& nodes, const SpecularPoints& points,
                         const MethodOutput& out) {
-  return by_rule<frostbite_point, frostbite_16, eden_rect, karis_billboard>(rule, light, nodes, points, out);
+  return by_rule<frostbite_point, frostbite_16, eden_rect, karis_billboard, covered_footprint>(rule, light, nodes, points, out);
 }
 std::size_t OverLitDisk(PublishedRule rule, const PlacedDisk& light, const LtcNodes& nodes, const SpecularPoints& points,
                         const MethodOutput& out) {
@@ -293,11 +298,11 @@ std::size_t OverLitDisk(PublishedRule rule, const PlacedDisk& light, const LtcNo
 }
 std::size_t OverLitSphere(PublishedRule rule, const PlacedSphere& light, const LtcNodes& nodes, const SpecularPoints& points,
                           const MethodOutput& out) {
-  return by_rule<frostbite_point, frostbite_16, karis_cone>(rule, light, nodes, points, out);
+  return by_rule<frostbite_point, frostbite_16, karis_cone, covered_footprint>(rule, light, nodes, points, out);
 }
 std::size_t OverLitSun(PublishedRule rule, const PlacedSun& light, const LtcNodes& nodes, const SpecularPoints& points,
                        const MethodOutput& out) {
-  return by_rule<frostbite_6, karis_cone>(rule, light, nodes, points, out);
+  return by_rule<frostbite_6, karis_cone, covered_footprint>(rule, light, nodes, points, out);
 }
 std::size_t OverLitTube(PublishedRule rule, const PlacedTube& light, const LtcNodes& nodes, const SpecularPoints& points,
                         const MethodOutput& out) {

@@ -195,11 +195,11 @@ HWY_EXPORT(OverPublishedSphere);
 HWY_EXPORT(OverPublishedSun);
 HWY_EXPORT(OverPublishedTube);
 
-constexpr std::array<std::string_view, 23> all_names{
+constexpr std::array<std::string_view, 24> all_names{
     "punctual",        "covered-lobe",    "covered-strip",    "drobot-1-20-mended", "drobot-1-20-fitted", "karis-10",
     "karis-11-mended", "karis-14",        "karis-18",         "karis-19",           "karis-20",           "karis-20-mended",
     "eden-sphere",     "eden-tube",       "eden-tube-mended", "frostbite-point",    "frostbite-16",       "frostbite-6",
-    "eden-rect",       "karis-billboard", "karis-cone",       "ltc-line",           "ltc-line-ends"};
+    "eden-rect",       "karis-billboard", "karis-cone",       "ltc-line",           "ltc-line-ends",      "covered-footprint"};
 // A sun by the sine of its angle.
 struct SunView {
   Vec3d towards;
@@ -213,15 +213,15 @@ bool takes(PublishedRule rule) {
   const auto is = [rule](std::initializer_list<PublishedRule> some) { return std::find(some.begin(), some.end(), rule) != some.end(); };
   if constexpr (std::is_same_v<Shape, SphereView>)
     return is({punctual, covered_lobe, covered_strip, drobot_20, karis_10, karis_11, karis_14, eden_sphere, frostbite_point, frostbite_16,
-               karis_cone});
+               karis_cone, covered_footprint});
   else if constexpr (std::is_same_v<Shape, SunView>)
-    return is({punctual, covered_lobe, covered_strip, drobot_20, karis_10, karis_11, karis_14, frostbite_6, karis_cone});
+    return is({punctual, covered_lobe, covered_strip, drobot_20, karis_10, karis_11, karis_14, frostbite_6, karis_cone, covered_footprint});
   else if constexpr (std::is_same_v<Shape, TubeView>)
     return is({punctual, covered_lobe, covered_strip, karis_18, karis_19, karis_20, karis_20_mended, eden_tube, eden_tube_mended,
                frostbite_point, frostbite_16, ltc_line, ltc_line_ends});
   else if constexpr (std::is_same_v<Shape, RectView>)
-    return is(
-        {punctual, covered_lobe, covered_strip, drobot_20, drobot_20_fitted, frostbite_point, frostbite_16, eden_rect, karis_billboard});
+    return is({punctual, covered_lobe, covered_strip, drobot_20, drobot_20_fitted, frostbite_point, frostbite_16, eden_rect,
+               karis_billboard, covered_footprint});
   else
     return is({punctual, covered_lobe, covered_strip, drobot_20, drobot_20_fitted, frostbite_point, frostbite_16});
 }

@@ -34,6 +34,7 @@ enum class PublishedRule {
   karis_cone,
   ltc_line,
   ltc_line_ends,
+  covered_footprint,
 };
 
 // Lights from the batch's origin; sides and normals are directions.
