@@ -15,6 +15,10 @@ def conductor(alpha):
     return {"name": "floor", "model": "conductor", "f0": [0.9, 0.7, 0.4], "alpha": alpha}
 
 
+def principled(alpha, metallic):
+    return {"name": "floor", "model": "principled", "base_colour": [0.8, 0.5, 0.2], "metallic": metallic, "roughness": math.sqrt(alpha)}
+
+
 def towards(direction):
     """Quaternion (x, y, z, w) that turns -Z into `direction`: the half-way construction from two unit vectors."""
     length = math.sqrt(sum(c * c for c in direction))
@@ -128,7 +132,7 @@ def light(kind, place, folder):
 
 def camera_for(place, material):
     """Matte floors from above; metal from opposite the light, so that its reflection is in the picture."""
-    metal = material["model"] == "conductor" or material.get("metal", 0) > 0.5
+    metal = material["model"] == "conductor" or material.get("metal", material.get("metallic", 0)) > 0.5
     if metal and place == "grazing":
         return {"position": [2.6, 0.9, 0.4], "target": [0, 0, 0], "vfov": "42 deg"}
     return {"position": [0, 2.2, 3.2], "target": [0, 0.0, 0.1], "vfov": "42 deg"}
