@@ -26,10 +26,10 @@ struct Options {
 };
 
 constexpr std::array<std::string_view, LtcTable::terms> terms{
-    "whole_00_alpha", "whole_02_alpha", "whole_width_alpha", "whole_20",         "whole_22",
-    "f0_part",        "f90_part",       "first_00_alpha",    "first_02_alpha",   "first_width_alpha",
-    "first_20",       "first_22",       "second_00_alpha",   "second_02_alpha",  "second_width_alpha",
-    "second_20",      "second_22",      "f0_part_of_first",  "f90_part_of_first"};
+    "whole_00_alpha",    "whole_02_alpha",  "whole_width_alpha",  "whole_20",          "whole_22",  "f0_part",
+    "f90_part",          "first_00_alpha",  "first_02_alpha",     "first_width_alpha", "first_20",  "first_22",
+    "second_00_alpha",   "second_02_alpha", "second_width_alpha", "second_20",         "second_22", "f0_part_of_first",
+    "f90_part_of_first", "one_00_alpha",    "one_02_alpha",       "one_width_alpha",   "one_20",    "one_22"};
 
 // What is misplaced at places of the table; the middles between nodes tell what reading it between them adds.
 struct Misplaced {
@@ -182,7 +182,7 @@ int run_fit_ltc(const Common& common, const Options& options) {
 void add_fit_ltc(CLI::App& app, const Common& common, Run& run) {
   CLI::App* const verb = app.add_subcommand("fit-ltc", "Tables of linearly transformed cosines fitted to GGX, as OpenEXR layers");
   auto options = std::make_shared<Options>();
-  verb->add_option("OUT", options->out, "OpenEXR file: nineteen terms a node, and the share of the lobe that is misplaced")->required();
+  verb->add_option("OUT", options->out, "OpenEXR file: twenty-four terms a node, and the share of the lobe that is misplaced")->required();
   verb->add_option("--size", options->size, "Nodes along each side: cosine of the view across, square root of alpha down")
       ->capture_default_str()
       ->check(CLI::Range(2, 256));

@@ -86,6 +86,7 @@ struct InVectors {
 };
 constexpr InVectors in_vectors[] = {
     {"ltc", "a transformed cosine from a table of ours, cut at the surface's horizon", false},
+    {"ltc-one-cosine", "one that is fitted between nodes, cut at the surface's horizon alone, Fresnel's term at the light", true},
     {"ltc-two-lobes", "two cosines, weighed one way for f0 and another for f90", true},
     {"ltc-two-cosines", "the same two, cut at the surface's horizon alone", true},
     {"ltc-two-caps", "the same two, through a cap of directions instead of the light's outline", true},

@@ -111,7 +111,7 @@ TEST(LtcTable, NoCosineIsASliver) {
   const LtcTable& table = ltc_table();
   const auto node = [&](std::size_t row, std::size_t column) -> const LtcTable::Node& { return node_at(table, row, column); };
   const auto determinant = [](const double* t) { return t[0] * t[4] - t[1] * t[3]; };
-  for (const std::size_t first : {std::size_t{0}, LtcTable::first, LtcTable::second}) {
+  for (const std::size_t first : {std::size_t{0}, LtcTable::first, LtcTable::second, LtcTable::one}) {
     for (const LtcTable::Node& n : table.nodes()) {
       for (std::size_t k = first; k < first + 5; ++k) EXPECT_LT(std::abs(n[k]), 40);
       EXPECT_GT(n[first + 2], 3e-4);

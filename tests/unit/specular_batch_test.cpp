@@ -21,7 +21,7 @@ using namespace etendue;
 using namespace etendue::eval;
 using namespace etendue::eval::protocol;
 
-constexpr std::array methods{"ltc", "ltc-two-lobes", "ltc-two-cosines", "moments"};
+constexpr std::array methods{"ltc", "ltc-one-cosine", "ltc-two-lobes", "ltc-two-cosines", "moments"};
 
 struct Views {
   FloatPoints surface;
@@ -139,7 +139,7 @@ void expect_cosines_as_in_double(std::initializer_list<const char*> names, unsig
 
 // A round light's outline stays a cone over an ellipse, so that its form is as exact in floats as digits allow.
 TEST(SpecularBatch, OfRoundLightsIsTheTransformedCosineInDouble) {
-  expect_cosines_as_in_double({"ltc", "ltc-two-lobes", "ltc-two-caps"}, 6, [](int i, Random& random) {
+  expect_cosines_as_in_double({"ltc", "ltc-one-cosine", "ltc-two-lobes", "ltc-two-caps"}, 6, [](int i, Random& random) {
     Emitter light = place(i % 2 == 0 ? Kind::sphere : Kind::disk, random, true).emitter;
     light.two_sided = i % 4 == 1;
     return light;
@@ -152,7 +152,7 @@ TEST(SpecularBatch, OfTubesIsTheTransformedCosineInDouble) {
 // Of the size of the real one on narrow lobes too, of which it fills much.
 TEST(SpecularBatch, OfSunsIsTheMethodInDouble) {
   on_each_instruction_set([] {
-    for (const std::string name : {"ltc", "ltc-two-lobes", "ltc-two-caps", "moments"}) {
+    for (const std::string name : {"ltc", "ltc-one-cosine", "ltc-two-lobes", "ltc-two-caps", "moments"}) {
       Random random(7);
       double errors = 0, sum = 0;
       for (const double radius : {0.00465, 0.1, 0.8}) {
@@ -200,7 +200,7 @@ void expect_finite_light(const char* name, const Emitter& light, double size, Ra
 TEST(SpecularBatch, OfRoundLightsIsFiniteLight) {
   on_each_instruction_set([] {
     Random random(10);
-    for (const char* name : {"ltc", "ltc-two-lobes", "ltc-two-caps", "moments"}) {
+    for (const char* name : {"ltc", "ltc-one-cosine", "ltc-two-lobes", "ltc-two-caps", "moments"}) {
       for (const double size : {0.0, 1e-6, 1.0, 1e5}) {
         Emitter disk = white(DiskEmitter{{}, {0, 0, 1}, {1, 0, 0}, size});
         disk.two_sided = true;

@@ -32,7 +32,8 @@ struct LtcLobe {
   struct Part {
     double albedo = 0, of_first = 0;  // the second has the rest; either may be below 0
   };
-  TransformedCosine whole;  // one for a lobe that mirrors all
+  TransformedCosine whole;  // one for a lobe that mirrors all, fitted at the nodes as others' are
+  TransformedCosine one;    // the same, fitted between nodes too
   TransformedCosine first, second;
   Part f0, f90;
 };
@@ -43,8 +44,9 @@ class LtcTable {
  public:
   // 5 terms of the inverse matrix for directions in the frame whose z is the mirror direction and whose y is across the plane of incidence,
   // which stay smooth and finite there as alpha goes to 0: (0, 0) and (0, 2) times alpha, 1 / (1, 1) over alpha, (2, 0), (2, 2). Then
-  // the directional albedo's parts: f0 * [5] + f90 * [6]. Then 5 terms for each of the two cosines, and what of the parts is the first's.
-  static constexpr std::size_t terms = 19, albedo = 5, first = 7, second = 12, of_first = 17;
+  // the directional albedo's parts: f0 * [5] + f90 * [6]. Then 5 terms for each of the two cosines, what of the parts is the
+  // first's, and 5 terms of the one that is fitted between nodes.
+  static constexpr std::size_t terms = 24, albedo = 5, first = 7, second = 12, of_first = 17, one = 19;
   using Node = std::array<float, terms>;
   static constexpr double lowest_alpha = 1e-4, lowest_cosine = 1e-4;
 
@@ -66,8 +68,8 @@ class LtcTable {
 const LtcTable& ltc_table();
 
 // Height-correlated GGX fitted anew: every node's matrix makes chi^2 = integral of (p - q)^2 / (p + q) over the directions above the
-// horizon smallest, p the lobe and q the cosine, both as densities there; the two cosines do so for the lobes of f0 = 1 and f0 = .04,
-// between nodes too. `progress`, told the share that is done: false ends the work.
+// horizon smallest, p the lobe and q the cosine, both as densities there; `one` does so between nodes too, and so do the two cosines for
+// the lobes of f0 = 1 and f0 = .04. `progress`, told the share that is done: false ends the work.
 std::optional<LtcTable> fit_ltc(std::uint32_t size, const std::function<bool(double share_done)>& progress = {});
 // How much of the lobe is in other directions than it should be: half the integral of |p - q|. No light's share of the lobe is further off.
 double misplaced_share(const TransformedCosine& whole, double alpha, double view_cosine);

@@ -21,14 +21,15 @@ struct SpecularPoints {
   std::span<const float> vx, vy, vz, alpha;
 };
 
-enum class SpecularRule { ltc, ltc_two_lobes, ltc_two_cosines, ltc_two_caps, moments };
+enum class SpecularRule { ltc, ltc_one_cosine, ltc_two_lobes, ltc_two_cosines, ltc_two_caps, moments };
 
 class SpecularBatch {
  public:
-  // `ltc`, `ltc-two-lobes`, `ltc-two-cosines`, `ltc-two-caps` and `moments`; nothing for other names.
+  // `ltc`, `ltc-one-cosine`, `ltc-two-lobes`, `ltc-two-cosines`, `ltc-two-caps` and `moments`; nothing for other names.
   static std::optional<SpecularRule> rule_named(std::string_view method);
   // Errors: METHOD_SHAPE: the rule has no vectors for the light: rectangles (not by caps), spheres, disks, suns and tubes with
-  // round caps (these not by caps), uniform and without a window; `ltc-two-cosines` rectangles alone.
+  // round caps (these not by caps), uniform and without a window; `ltc-two-cosines` rectangles alone,
+  // `ltc-one-cosine` no tubes.
   static Result<SpecularBatch> of(SpecularRule rule, const Emitter& emitter);
 
   // Of each point the luminance for a light of 1 cd/m2, as factors on f0 and on f90: what the method gives in double, but for roundings of

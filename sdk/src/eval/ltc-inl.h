@@ -158,19 +158,38 @@ HWY_INLINE Lanes near_over_sine_less_one(const Vector3& from, const Vector3& ste
   const Lanes over_sine = inverse_sqrt(d, hn::Max(sine2, number(1e-20f)));
   return hn::IfThenElse(hn::Gt(t, number(1)), hn::Sub(hn::MulSub(number(static_cast<float>(pi)), over_sine, f), two), f);
 }
-// The same of the cosine that is negative below its own horizon.
+// Twice the integral of the directions that the light covers of the cosine, whatever is below its horizon.
 template <std::size_t N>
-HWY_INLINE Lanes covered_unclamped(const Cosines& cosines, const Outline<N>& light) {
-  const Floats d;
-  const Outline<N> seen = seen_by(cosines, light);
-  Lanes sum = number(0);
+HWY_INLINE Vector3 twice_irradiance(const Outline<N>& seen) {
+  const Lanes zero = number(0);
+  Vector3 sum{zero, zero, zero};
   each<N>([&](auto i) ETENDUE_INLINE_LAMBDA {
     const Vector3 step = seen.to[i] - seen.from[i];
-    const Lanes turn = hn::MulSub(seen.from[i].x, step.y, hn::Mul(seen.from[i].y, step.x));
-    const Lanes rest = near_over_sine_less_one(seen.from[i], step);
-    sum = hn::Add(sum, hn::IfThenElseZero(seen.seen[i], hn::MulAdd(turn, rest, turn)));
+    const Lanes factor = hn::Add(near_over_sine_less_one(seen.from[i], step), number(1));
+    sum = along(sum, cross(seen.from[i], step), hn::IfThenElseZero(seen.seen[i], factor));
   });
-  return saturate(hn::Mul(sum, inverse(d, hn::Mul(number(static_cast<float>(2 * pi)), cosines.share_above()))));
+  return sum;
+}
+// The share that the surface's horizon alone cuts, what is below the cosine's own counted as negative, and what leads to the light there.
+struct UncutShare {
+  Lanes share;
+  Vector3 towards;
+};
+HWY_INLINE Lanes share_of(const Cosines& cosines, Lanes twice) {
+  return saturate(hn::Mul(twice, inverse(Floats(), hn::Mul(number(static_cast<float>(2 * pi)), cosines.share_above()))));
+}
+
+// Fresnel's term at the direction that goes to `there` in the cosine's space.
+HWY_INLINE Shares with_weight_towards(const Vector3& there, const Cosines& m, const ViewFrame& view, Lanes lit) {
+  const Floats d;
+  const Lanes one = number(1), half = number(0.5f), det = hn::MulSub(m.xx, m.zz, hn::Mul(m.xz, m.zx));
+  const Vector3 light{hn::MulSub(m.zz, there.x, hn::Mul(m.xz, there.z)), hn::Mul(hn::Mul(there.y, det), inverse(d, m.yy)),
+                      hn::MulSub(m.xx, there.z, hn::Mul(m.zx, there.x))};
+  const Lanes over = inverse_sqrt(d, hn::Max(dot(light, light), number(1e-30f)));
+  const Lanes between = hn::Mul(hn::MulAdd(view.sine, light.x, hn::Mul(view.cosine, light.z)), over);
+  const Lanes rest = hn::Sub(one, hn::Sqrt(saturate(hn::MulAdd(half, between, half)))), rest2 = hn::Mul(rest, rest);
+  const Lanes weighed = hn::Mul(lit, hn::Mul(rest, hn::Mul(rest2, rest2)));
+  return {hn::Sub(lit, weighed), weighed};
 }
 
 // `ltc` and, with two cosines for both parts that Schlick's weight makes of the lobe, `ltc-two-lobes` and what is like it.
@@ -202,13 +221,33 @@ struct ThroughTable {
     return by_cosines<two>(nodes, view, alpha, [&](const Cosines& cosines) ETENDUE_INLINE_LAMBDA { return covered(cosines, light); });
   }
 };
+// covered(cosines): a share, and what leads `towards` the light in the cosine's space.
+HWY_INLINE Shares by_one_cosine(const LtcNodes& nodes, const ViewFrame& view, Lanes alpha, const auto& covered) {
+  const auto terms = between_nodes<1>(nodes.one, nodes.size, alpha, view.cosine);
+  const Cosines cosines = transformed_cosine(terms.data(), alpha, view);
+  const auto found = covered(cosines);
+  const Lanes albedo = hn::Add(terms[LtcNodes::albedo], terms[LtcNodes::albedo + 1]);
+  return with_weight_towards(found.towards, cosines, view, hn::Mul(albedo, found.share));
+}
+struct ByOneCosine {
+  static constexpr bool in_units = false;
+  LtcNodes nodes;
+  template <std::size_t N>
+  HWY_INLINE Shares operator()(const ViewFrame& view, Lanes alpha, const Outline<N>& light) const {
+    return by_one_cosine(nodes, view, alpha, [&](const Cosines& cosines) ETENDUE_INLINE_LAMBDA {
+      const Vector3 twice = twice_irradiance(seen_by(cosines, light));
+      return UncutShare{share_of(cosines, twice.z), twice};
+    });
+  }
+};
 struct ByTwoCosines {
   static constexpr bool in_units = false;
   LtcNodes nodes;
   template <std::size_t N>
   HWY_INLINE Shares operator()(const ViewFrame& view, Lanes alpha, const Outline<N>& light) const {
-    return by_cosines<true>(nodes, view, alpha,
-                            [&](const Cosines& cosines) ETENDUE_INLINE_LAMBDA { return covered_unclamped(cosines, light); });
+    return by_cosines<true>(nodes, view, alpha, [&](const Cosines& cosines) ETENDUE_INLINE_LAMBDA {
+      return share_of(cosines, twice_irradiance(seen_by(cosines, light)).z);
+    });
   }
 };
 

@@ -4,6 +4,7 @@
 #include "fresnel.h"
 #include "hill_heitz.h"
 #include "illuminance.h"
+#include "specular_batch.h"
 #include "specular_line.h"
 #include "specular_view.h"
 #include "transformed_contour.h"
@@ -49,7 +50,12 @@ LtcLobe LtcTable::at(double alpha, double cosine) const {
   const auto cosine_from = [&](std::size_t k) {
     return transformed_cosine({term(k), term(k + 1), term(k + 2), term(k + 3), term(k + 4)}, a, std::clamp(cosine, 0.0, 1.0));
   };
-  return {cosine_from(0), cosine_from(first), cosine_from(second), {term(albedo), term(of_first)}, {term(albedo + 1), term(of_first + 1)}};
+  return {cosine_from(0),
+          cosine_from(one),
+          cosine_from(first),
+          cosine_from(second),
+          {term(albedo), term(of_first)},
+          {term(albedo + 1), term(of_first + 1)}};
 }
 
 const LtcTable& ltc_table() {
@@ -126,20 +132,23 @@ struct Covered {
     return irradiance(local, horizons(local), through(local));
   }
   Horizons horizons(const LocalFrame& local) const { return horizons_of(local, point.normal, point.surface_normal); }
+  // The same of all of the light, above the horizon or not.
+  Vec3d whole_irradiance() const {
+    const LocalFrame local(point.position, point.normal);
+    const Transform linear = through(local);
+    Vec3d sum;
+    each_outline(emitter, local, [&](const Contour& outline, std::size_t) { sum += direction_integral(transformed(outline, linear)); });
+    return sum;
+  }
   // Of a cap, cut at the surface's horizon alone: below its own horizon the cosine counts as negative, which is little where a lobe is, and
   // nearer on the mean than none. Nothing once all of the light is below the surface's horizon.
   double share_as_cap() const {
     const LocalFrame local(point.position, point.normal);
-    const Horizons horizons = horizons_of(local, point.normal, point.surface_normal);
-    const Transform linear = through(local);
-    Vec3d integral;
+    const Horizons horizons = this->horizons(local);
     bool is_up = false;
-    each_outline(emitter, local, [&](const Contour& outline, std::size_t) {
-      is_up = is_up || !clipped(outline, horizons).empty();
-      integral += direction_integral(transformed(outline, linear));
-    });
+    each_outline(emitter, local, [&](const Contour& outline, std::size_t) { is_up = is_up || !clipped(outline, horizons).empty(); });
     const Vec3d horizon = normalised(cosine.inverse.normal({0, 0, 1}));
-    return is_up ? std::clamp(Cap(integral).above(horizon) / (pi * cosine.share_above()), 0.0, 1.0) : 0;
+    return is_up ? std::clamp(Cap(whole_irradiance()).above(horizon) / (pi * cosine.share_above()), 0.0, 1.0) : 0;
   }
   // The horizon of the surface is a plane through the point there too.
   double covered(const PolygonEmitter& polygon, const LocalFrame& local, const Transform& linear) const {
@@ -162,7 +171,7 @@ double weight_towards(const Vec3d& there, const TransformedCosine& cosine, const
   return schlick_weight(dot(view, half) / std::max(length(half), 1e-12));
 }
 
-enum class Form { four_terms, published, one_cosine, representative, two_lobes, two_cosines, two_caps };
+enum class Form { four_terms, published, one_lobe, representative, one_cosine, two_lobes, two_cosines, two_caps };
 
 std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& point, Form form) {
   const std::optional<GgxLobe> lobe = correlated_ggx(point.brdf);
@@ -174,9 +183,11 @@ std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& poi
   if (form == Form::four_terms) fit.whole = four_term_cosine(lobe->alpha, frame.cosine);
   const bool published = form == Form::four_terms || form == Form::published;
   const Rgb scale = line != nullptr ? line->intensity : luminance_of(emitter);
+  const bool clamped = form != Form::one_cosine && form != Form::two_cosines;
+  const auto light_through = [&](const TransformedCosine& cosine) { return Covered{emitter, point, frame, cosine, !published, clamped}; };
   // Integral over the light of the cosine times the direction in its space; the z of that is the light's share, of a line without bound.
   const auto covered = [&](const TransformedCosine& cosine) {
-    const Covered light{emitter, point, frame, cosine, !published, form != Form::two_cosines};
+    const Covered light = light_through(cosine);
     if (line == nullptr) return light.irradiance() / pi;
     const LocalFrame local(point.position, point.normal);
     const std::optional<LineView> seen =
@@ -188,15 +199,17 @@ std::optional<Rgb> through_table(const Emitter& emitter, const ShadingPoint& poi
     return line == nullptr && !published ? std::min(above, 1.0) : above;
   };
   const auto share = [&](const TransformedCosine& cosine) {
-    const Covered light{emitter, point, frame, cosine, !published, form != Form::two_cosines};
-    if (form == Form::two_caps) return light.share_as_cap();
-    return kept(line == nullptr ? light() / pi : covered(cosine).z, cosine);
+    if (form == Form::two_caps) return light_through(cosine).share_as_cap();
+    return kept(line == nullptr ? light_through(cosine)() / pi : covered(cosine).z, cosine);
   };
-  if (form == Form::representative) {
-    const Vec3d there = covered(fit.whole);
-    if (!(there.z > 0)) return Rgb{};
-    const double lit = kept(there.z, fit.whole) * (fit.f0.albedo + fit.f90.albedo),
-                 weight = weight_towards(there, fit.whole, frame.vector(point.view));
+  if (form == Form::representative || form == Form::one_cosine) {
+    const TransformedCosine& cosine = form == Form::representative ? fit.whole : fit.one;
+    const Vec3d there = covered(cosine);
+    const double part = kept(there.z, cosine);
+    if (!(part > 0)) return Rgb{};
+    const bool by_whole = form == Form::one_cosine && is_round(emitter);
+    const double lit = part * (fit.f0.albedo + fit.f90.albedo);
+    const double weight = weight_towards(by_whole ? light_through(cosine).whole_irradiance() : there, cosine, frame.vector(point.view));
     return scale * (lobe->f0 * (lit * (1 - weight)) + Rgb{1, 1, 1} * (lit * lobe->f90 * weight));
   }
   const bool two = form == Form::two_lobes || form == Form::two_cosines || form == Form::two_caps;
@@ -225,10 +238,15 @@ constexpr SpecularMethod methods[] = {
      "the lobe.",
      luminance<Form::published>},
     {"ltc", article, "The light is cut at the surface's horizon first, and the cosine is one for what is above it.",
-     luminance<Form::one_cosine>},
+     luminance<Form::one_lobe>},
     {"ltc-fresnel", article,
      "The same, with Schlick's Fresnel at the direction of what the light covers of the cosine, instead of averaged over the lobe.",
      luminance<Form::representative>},
+    {"ltc-one-cosine", article,
+     "As ltc-fresnel, with a cosine that is fitted between the nodes of its table too and is negative below its own horizon in place of "
+     "cut "
+     "there: cheaper than ltc. Of round lights the direction is that of the whole light.",
+     luminance<Form::one_cosine>},
     {"ltc-two-lobes", article,
      "The same, with a sum of two cosines for the part of the lobe that Fresnel's term weighs with f0, and another of the same two for "
      "that with f90.",

@@ -244,6 +244,26 @@ HWY_INLINE Lanes covered_as_cap(const Cosines& cosines, const RoundCone& light) 
   return saturate(hn::Mul(sum, inverse(d, hn::Mul(number(static_cast<float>(pi)), cosines.share_above()))));
 }
 
+// What leads towards the light is the middle of all of it.
+template <bool sphere>
+HWY_INLINE UncutShare covered_uncut(const Cosines& cosines, const Ellipse& light, const RoundCone& round, Lit crossed) {
+  const Floats d;
+  const ConeAxis cone = axis_of<sphere>(cosines, round);
+  Lanes sum =
+      hn::Mul(hn::Mul(number(static_cast<float>(2 * pi)), cone.det), hn::Mul(cone.e0.z, inverse_sqrt(d, hn::Mul(cone.m, cone.slope))));
+  if (!hn::AllFalse(d, crossed)) {
+    const ConeFrame axes = frame_of(transformed(cosines, light), cone);
+    const Rim rim(axes.a, axes.b, {axes.e1.z, axes.e2.z, axes.e0.z});
+    const Vector3 horizon = horizon_of(cosines);
+    const Plane plane({dot(axes.e1, horizon), dot(axes.e2, horizon), dot(axes.e0, horizon)}, crossed, rim);
+    const Vector3 begin = rim.unit_at(plane.sets), step = rim.unit_at(plane.rises) - begin;
+    const Lanes turn = dot(rim.n, cross(begin, step)), chord = hn::MulAdd(turn, over_sine_less_one(begin, step), turn);
+    const Lanes part = hn::Add(rim.between(plane.rises, plane.sets, hn::Gt(plane.n.z, number(0)), crossed), chord);
+    sum = hn::IfThenElse(crossed, part, sum);
+  }
+  return {share_of(cosines, sum), cone.e0};
+}
+
 // The share of the cosine above the horizon that the cone covers; `crossed`: the horizon cuts it.
 inline HWY_NOINLINE Lanes covered(const Cosines& cosines, const Ellipse& light, Lit crossed) {
   const Floats d;

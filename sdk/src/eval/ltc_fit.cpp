@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace etendue::eval {
@@ -103,7 +104,7 @@ CosinePair start_of(const NodeFit& fit, const SampledLobe& lobe) {
   return {lobe.f0_part < 0.03 * lobe.albedo() ? fit.grazing : fit.steep, lobe.f90_part < 2.5e-4 * lobe.albedo() ? fit.steep : fit.grazing};
 }
 
-LtcTable::Node node_of(const SampledLobe& lobe, const CosineShape& whole, const CosinePair& pair) {
+LtcTable::Node node_of(const SampledLobe& lobe, const CosineShape& whole, const CosineShape& one, const CosinePair& pair) {
   LtcTable::Node node;
   const auto store = [](double x) { return static_cast<float>(x); };
   const auto store_terms = [&](const CosineShape& p, std::size_t first) {
@@ -113,6 +114,7 @@ LtcTable::Node node_of(const SampledLobe& lobe, const CosineShape& whole, const 
   store_terms(whole, 0);
   store_terms(pair.first, LtcTable::first);
   store_terms(pair.second, LtcTable::second);
+  store_terms(one, LtcTable::one);
   node[LtcTable::albedo] = store(lobe.f0_part), node[LtcTable::albedo + 1] = store(lobe.f90_part);
   node[LtcTable::of_first] = store(lobe.f0_part * pair.of_f0), node[LtcTable::of_first + 1] = store(lobe.f90_part * pair.of_f90);
   return node;
@@ -128,7 +130,7 @@ std::optional<LtcTable> fit_ltc(std::uint32_t size, const std::function<bool(dou
   std::vector<CosineShape> whole(count);
   std::vector<CosinePair> pairs(count);
   std::vector<NodeFit> row_below(size);
-  constexpr double first_half = 0.5;
+  constexpr double alone = 0.4, of_one = 0.7;  // what is done after each step
   for (std::uint32_t row = 0; row < size; ++row) {
     const double alpha = axes.alpha_of(row);
     NodeFit neighbour;
@@ -142,15 +144,24 @@ std::optional<LtcTable> fit_ltc(std::uint32_t size, const std::function<bool(dou
       const std::size_t at = static_cast<std::size_t>(row) * size + column;
       whole[at] = neighbour.whole, pairs[at] = start_of(neighbour, lobe);
     }
-    if (progress && !progress(first_half * (row + 1.0) / size)) return std::nullopt;
+    if (progress && !progress(alone * (row + 1.0) / size)) return std::nullopt;
   }
-  auto fitted = fit_pairs(axes, std::move(pairs), [&](double done) { return !progress || progress(first_half + (1 - first_half) * done); });
-  if (!fitted) return std::nullopt;
+  std::vector<CosinePair> starts;
+  std::transform(whole.begin(), whole.end(), std::back_inserter(starts), [](const CosineShape& shape) {
+    return CosinePair{shape, shape, 1, 1};
+  });
+  const auto fitted = [&](const std::vector<CosinePair>& from, Cosines cosines, double begin, double end) {
+    return fit_between(axes, from, cosines, [&](double done) { return !progress || progress(begin + (end - begin) * done); });
+  };
+  const auto one = fitted(starts, Cosines::one, alone, of_one);
+  if (!one) return std::nullopt;
+  const auto two = fitted(pairs, Cosines::two, of_one, 1);
+  if (!two) return std::nullopt;
   std::vector<LtcTable::Node> nodes;
   nodes.reserve(count);
   for (std::size_t at = 0; at < count; ++at) {
     const SampledLobe lobe(axes.alpha_of(static_cast<std::uint32_t>(at / size)), axes.cosine_of(static_cast<std::uint32_t>(at % size)), 4);
-    nodes.push_back(node_of(lobe, whole[at], (*fitted)[at]));
+    nodes.push_back(node_of(lobe, whole[at], (*one)[at].first, (*two)[at]));
   }
   return LtcTable(size, std::move(nodes));
 }

@@ -47,9 +47,10 @@ struct CosinePair {
   CosineShape first, second;
   double of_f0 = 1, of_f90 = 0;
 };
-// Fitted for reading between the nodes of a table of `size` x `size`, those of one alpha side by side: each starts from what it is given.
-// Nothing if `progress`, told the share that is done, says false.
-std::optional<std::vector<CosinePair>> fit_pairs(const LtcTable& axes, std::vector<CosinePair> pairs,
-                                                 const std::function<bool(double share_done)>& progress);
+// Fitted for reading between the nodes of a table as `axes` has: each starts from what it is given. `one`: the first cosine is all there
+// is, and the lobe is that of f0 = 1. Nothing if `progress`, told the share that is done, says false.
+enum class Cosines { one, two };
+std::optional<std::vector<CosinePair>> fit_between(const LtcTable& axes, const std::vector<CosinePair>& starts, Cosines cosines,
+                                                   const std::function<bool(double share_done)>& progress);
 
 }  // namespace etendue::eval

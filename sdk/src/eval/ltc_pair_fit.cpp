@@ -1,4 +1,4 @@
-// Two transformed cosines for both parts of the lobe, fitted to what is read between the nodes of a table.
+// Transformed cosines, one for the lobe or two for both its parts, fitted to what is read between the nodes of a table.
 //
 // At a node the measure is that of single cosines, chi^2 = integral of (p - q)^2 / (p + |q|) over the directions above the horizon, q being
 // what both cosines make of the lobe, which may be negative, taken for the lobes of f0 = 1 and of f0 = .04, each over its albedo. What a
@@ -11,12 +11,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <span>
 #include <utility>
 
 namespace etendue::eval {
 namespace {
 
-constexpr double specular_f0[] = {1, 0.04};
 constexpr std::size_t unknowns = 2 * CosineUnknowns::count + 2;
 using Unknowns = std::array<double, unknowns>;
 
@@ -51,14 +51,17 @@ PairTerms pair_terms(const CosinePair& pair, const SampledLobe& lobe) {
           lobe.f0_part * (1 - pair.of_f0),  lobe.f90_part * pair.of_f90,       lobe.f90_part * (1 - pair.of_f90)};
 }
 
-void add_residuals(const SampledLobe& lobe, const PairTerms& t, std::vector<double>& r) {
+constexpr double every_f0[] = {1, 0.04};
+std::span<const double> f0_of(Cosines cosines) { return std::span(every_f0).first(cosines == Cosines::one ? 1 : 2); }
+
+void add_residuals(const SampledLobe& lobe, const PairTerms& t, std::span<const double> every, std::vector<double>& r) {
   const TransformedCosine first = transformed_cosine(t.first, lobe.alpha, lobe.cosine);
   const TransformedCosine second = transformed_cosine(t.second, lobe.alpha, lobe.cosine);
   const double over_first = 1 / first.share_above(), over_second = 1 / second.share_above();
   for (const LobeDirection& d : lobe.directions) {
     const double a = first.density(d.light) * over_first, b = second.density(d.light) * over_second;
     const double of_f0 = t.first_f0 * a + t.second_f0 * b, of_f90 = t.first_f90 * a + t.second_f90 * b;
-    for (const double f0 : specular_f0) {
+    for (const double f0 : every) {
       const double over = 1 / (f0 * lobe.f0_part + lobe.f90_part);
       const double p = d.lobe * (f0 * (1 - d.fresnel_weight) + d.fresnel_weight) * over, q = (f0 * of_f0 + of_f90) * over;
       r.push_back((p - q) * std::sqrt(d.solid_angle / (p + std::abs(q))));
@@ -77,7 +80,7 @@ void add_distance(const Unknowns& p, const Unknowns& from, double alpha, double 
 
 class PairTable {
  public:
-  PairTable(const LtcTable& axes, const std::vector<CosinePair>& pairs) : size_(axes.size()) {
+  PairTable(const LtcTable& axes, const std::vector<CosinePair>& starts, Cosines cosines) : size_(axes.size()), cosines_(cosines) {
     for (std::uint32_t row = 0; row < size_; ++row) {
       for (std::uint32_t column = 0; column < size_; ++column) {
         nodes_.emplace_back(axes.alpha_of(row), axes.cosine_of(column), panels);
@@ -85,7 +88,7 @@ class PairTable {
         middles_.emplace_back(std::min(root * root, 1.0), cosine, panels);
       }
     }
-    for (std::size_t at = 0; at < pairs.size(); ++at) set(at, unknowns_of(pairs[at]));
+    for (std::size_t at = 0; at < starts.size(); ++at) set(at, unknowns_of(starts[at]));
   }
 
   // By the node alone, near to where it starts: neighbours, whose starts are alike, end alike.
@@ -97,7 +100,7 @@ class PairTable {
         p,
         [&](const Unknowns& there) {
           std::vector<double> r;
-          add_residuals(nodes_[at], pair_terms(pair_of(fit_for(at, there)), nodes_[at]), r);
+          add_residuals(nodes_[at], pair_terms(pair_of(fit_for(at, there)), nodes_[at]), f0_of(cosines_), r);
           add_distance(there, start, nodes_[at].alpha, hold, r);
           return r;
         },
@@ -114,12 +117,12 @@ class PairTable {
         [&](const Unknowns& there) {
           std::vector<double> r;
           const PairTerms own = pair_terms(pair_of(fit_for(at, there)), nodes_[at]);
-          add_residuals(nodes_[at], own, r);
+          add_residuals(nodes_[at], own, f0_of(cosines_), r);
           each_cell(at, [&](std::size_t corner) {
             PairTerms middle;
             for (const std::size_t k : {corner, corner + 1, corner + size_, corner + size_ + 1})
               middle.add(k == at ? own : terms_[k], 0.25);
-            add_residuals(middles_[corner], middle, r);
+            add_residuals(middles_[corner], middle, f0_of(cosines_), r);
           });
           add_distance(there, neighbours, nodes_[at].alpha, hold, r);
           return r;
@@ -141,9 +144,13 @@ class PairTable {
     unknowns_.resize(nodes_.size()), terms_.resize(nodes_.size());
     unknowns_[at] = fit_for(at, p), terms_[at] = pair_terms(pair_of(unknowns_[at]), nodes_[at]);
   }
-  // Seen along the normal a lobe is the same all around.
+  // Seen along the normal a lobe is the same all around. One cosine is two that are the same.
   Unknowns fit_for(std::size_t at, Unknowns p) const {
     using U = CosineUnknowns;
+    if (cosines_ == Cosines::one) {
+      std::copy_n(p.begin(), U::count, p.begin() + U::count);
+      p[unknowns - 2] = p[unknowns - 1] = 1;
+    }
     if (at % size_ + 1 < size_) return p;
     for (const std::size_t k : {std::size_t{0}, std::size_t{U::count}})
       p[k + U::angle] = p[k + U::slant] = 0, p[k + U::log_t] = p[k + U::log_s];
@@ -171,6 +178,7 @@ class PairTable {
   }
 
   std::size_t size_;
+  Cosines cosines_;
   std::vector<SampledLobe> nodes_, middles_;
   std::vector<Unknowns> unknowns_;
   std::vector<PairTerms> terms_;
@@ -178,11 +186,11 @@ class PairTable {
 
 }  // namespace
 
-std::optional<std::vector<CosinePair>> fit_pairs(const LtcTable& axes, std::vector<CosinePair> pairs,
-                                                 const std::function<bool(double)>& progress) {
+std::optional<std::vector<CosinePair>> fit_between(const LtcTable& axes, const std::vector<CosinePair>& starts, Cosines cosines,
+                                                   const std::function<bool(double)>& progress) {
   constexpr int sweeps = 12;
-  PairTable table(axes, pairs);
-  for (std::size_t at = 0; at < pairs.size(); ++at) table.settle(at);
+  PairTable table(axes, starts, cosines);
+  for (std::size_t at = 0; at < starts.size(); ++at) table.settle(at);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (const auto& [row, column] : {std::pair{0u, 0u}, {0u, 1u}, {1u, 0u}, {1u, 1u}}) {
       for (std::size_t r = row; r < axes.size(); r += 2)

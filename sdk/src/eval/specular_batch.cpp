@@ -17,6 +17,7 @@ namespace etendue::eval {
 namespace {
 
 constexpr std::pair<std::string_view, SpecularRule> rules[] = {{"ltc", SpecularRule::ltc},
+                                                               {"ltc-one-cosine", SpecularRule::ltc_one_cosine},
                                                                {"ltc-two-lobes", SpecularRule::ltc_two_lobes},
                                                                {"ltc-two-cosines", SpecularRule::ltc_two_cosines},
                                                                {"ltc-two-caps", SpecularRule::ltc_two_caps},
@@ -78,10 +79,12 @@ namespace {
 
 // A cache line a node for the two cosines, half of one for the one; of the two the weights are told for each.
 struct PaddedNodes {
-  explicit PaddedNodes(const LtcTable& table) : whole(table.nodes().size()), pair(table.nodes().size()) {
+  explicit PaddedNodes(const LtcTable& table) : whole(table.nodes().size()), one(whole), pair(whole.size()) {
     for (std::size_t i = 0; i < whole.size(); ++i) {
       const LtcTable::Node& node = table.nodes()[i];
       std::copy_n(node.begin(), LtcTable::first, whole[i].numbers.begin());
+      one[i] = whole[i];
+      std::copy_n(node.begin() + LtcTable::one, LtcTable::albedo, one[i].numbers.begin());
       std::copy_n(node.begin() + LtcTable::first, 10, pair[i].numbers.begin());
       for (std::size_t part = 0; part < 2; ++part) {
         const float of_first = node[LtcTable::of_first + part];
@@ -95,7 +98,7 @@ struct PaddedNodes {
   struct alignas(64) Pair {
     std::array<float, LtcNodes::of_pair> numbers{};
   };
-  std::vector<Whole> whole;
+  std::vector<Whole> whole, one;
   std::vector<Pair> pair;
 };
 
@@ -103,7 +106,7 @@ struct PaddedNodes {
 
 LtcNodes ltc_nodes() {
   static const PaddedNodes nodes(ltc_table());
-  return {nodes.whole.data()->numbers.data(), nodes.pair.data()->numbers.data(), ltc_table().size()};
+  return {nodes.whole.data()->numbers.data(), nodes.one.data()->numbers.data(), nodes.pair.data()->numbers.data(), ltc_table().size()};
 }
 
 }  // namespace etendue::eval

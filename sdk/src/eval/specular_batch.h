@@ -33,11 +33,12 @@ std::shared_ptr<const SpecularBatch::Light> specular_tube(SpecularRule rule, con
 // The method in double at one point of a batch.
 SchlickShares in_double(SpecularRule rule, const Emitter& white, const SpecularPoints& points, std::size_t index);
 
-// The nodes of ltc_table(), padded. `whole`: 5 terms, the parts of the albedo that are f0's and f90's, and one number that means nothing.
+// The nodes of ltc_table(), padded. `whole`: 5 terms, the parts of the albedo that are f0's and f90's, and one number that means nothing;
+// `one` the same of the cosine that is fitted between nodes.
 // `pair`: 5 terms of either cosine, what of the f0 and of the f90 part the first has, what the second has, and two more.
 struct LtcNodes {
   static constexpr std::size_t of_whole = 8, of_pair = 16, albedo = 5, second = 5, of_first = 10, of_second = 12;
-  const float *whole, *pair;
+  const float *whole, *one, *pair;
   std::size_t size;  // along each side
 };
 LtcNodes ltc_nodes();

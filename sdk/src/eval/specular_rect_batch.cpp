@@ -70,6 +70,7 @@ std::size_t OverSpecularRect(SpecularRule rule, const SpecularRect& light, const
   const auto exact = [&](std::size_t index) { return in_double(rule, light.white, points, index); };
   const auto with = [&](auto of) { return over_views(points, of_f0, of_f90, where_none, RectLobe(light, of), exact); };
   if (rule == SpecularRule::ltc) return with(ThroughTable<false>{nodes});
+  if (rule == SpecularRule::ltc_one_cosine) return with(ByOneCosine{nodes});
   if (rule == SpecularRule::ltc_two_lobes) return with(ThroughTable<true>{nodes});
   if (rule == SpecularRule::ltc_two_cosines) return with(ByTwoCosines{nodes});
   return with(ByMoments{});

@@ -98,14 +98,25 @@ class RoundLobe {
     const Outlook out = outlook_of<shape>(light_, position, frame);
     const Lit lit = hn::And(hn::And(hn::Gt(frame.cosine, zero), out.seen), out.is_up);
     doubtful = hn::And(out.doubtful, hn::Gt(frame.cosine, zero));
-    const Shares shares = by_cosines<rule != SpecularRule::ltc>(nodes_, frame, alpha, [&](const Cosines& cosines) ETENDUE_INLINE_LAMBDA {
-      if constexpr (rule == SpecularRule::ltc_two_caps) return covered_as_cap<shape != Round::disk>(cosines, out.round);
-      return covered(cosines, out.ellipse, out.crossed);
-    });
+    const Shares shares = through(frame, alpha, out);
     return {hn::IfThenElseZero(lit, shares.of_f0), hn::IfThenElseZero(lit, shares.of_f90)};
   }
 
  private:
+  HWY_INLINE Shares through(const ViewFrame& frame, Lanes alpha, const Outlook& out) const {
+    constexpr bool is_unit = shape != Round::disk;
+    if constexpr (rule == SpecularRule::ltc_one_cosine) {
+      return by_one_cosine(nodes_, frame, alpha, [&](const Cosines& cosines) ETENDUE_INLINE_LAMBDA {
+        return covered_uncut<is_unit>(cosines, out.ellipse, out.round, out.crossed);
+      });
+    } else {
+      return by_cosines<rule != SpecularRule::ltc>(nodes_, frame, alpha, [&](const Cosines& cosines) ETENDUE_INLINE_LAMBDA {
+        if constexpr (rule == SpecularRule::ltc_two_caps) return covered_as_cap<is_unit>(cosines, out.round);
+        return covered(cosines, out.ellipse, out.crossed);
+      });
+    }
+  }
+
   const SpecularRound& light_;
   LtcNodes nodes_;
 };
@@ -120,6 +131,7 @@ std::size_t OverSpecularRound(SpecularRule rule, const SpecularRound& light, con
     return with(RoundLobe<of(), Round::sun>(light, nodes));
   };
   if (rule == SpecularRule::ltc) return by(std::integral_constant<SpecularRule, SpecularRule::ltc>());
+  if (rule == SpecularRule::ltc_one_cosine) return by(std::integral_constant<SpecularRule, SpecularRule::ltc_one_cosine>());
   if (rule == SpecularRule::ltc_two_lobes) return by(std::integral_constant<SpecularRule, SpecularRule::ltc_two_lobes>());
   return by(std::integral_constant<SpecularRule, SpecularRule::ltc_two_caps>());
 }

@@ -116,9 +116,8 @@ class TubeLight final : public SpecularBatch::Light {
 // Without a length it is a sphere.
 std::shared_ptr<const SpecularBatch::Light> specular_tube(SpecularRule rule, const Emitter& white) {
   const auto* tube = std::get_if<TubeEmitter>(&white.shape);
-  if (tube == nullptr || rule == SpecularRule::ltc_two_caps || rule == SpecularRule::ltc_two_cosines || tube->caps != Caps::round ||
-      !(tube->radius > 0))
-    return nullptr;
+  const bool has_vectors = rule == SpecularRule::moments || rule == SpecularRule::ltc || rule == SpecularRule::ltc_two_lobes;
+  if (tube == nullptr || !has_vectors || tube->caps != Caps::round || !(tube->radius > 0)) return nullptr;
   if (length(tube->b - tube->a) > 0) return std::make_shared<TubeLight>(white);
   Emitter ball = white;
   ball.shape = SphereEmitter{tube->a, tube->radius};
