@@ -106,6 +106,7 @@ TEST(SpecularLine, EdgesOfTheDomain) {
     other.window = {Falloff::frostbite, 3};
     EXPECT_FALSE(method.luminance(other, point)) << name;
     // Half of it below the horizon is half of what both ends give.
+    other = light;
     other.shape = LineEmitter{{0, 0.5, -1}, {0, 0.5, 1}, {1, 1, 1}};
     const double crossing = method.luminance(other, point)->x;
     other.shape = LineEmitter{{0, 0.5, 0}, {0, 0.5, 1}, {0.5, 0.5, 0.5}};

@@ -58,13 +58,6 @@ LtcLobe LtcTable::at(double alpha, double cosine) const {
           {term(albedo + 1), term(of_first + 1)}};
 }
 
-const LtcTable& ltc_table() {
-  static const LtcTable table(33, {
-#include "ltc_table.inc"
-                                  });
-  return table;
-}
-
 namespace {
 
 // The cap of directions whose integral is that of a light's.
