@@ -55,7 +55,7 @@ TEST(LtcTable, IsWhatTheFitFinds) {
   for (std::uint32_t row = 0; row < size; ++row) {
     for (std::uint32_t column = 0; column < size; ++column) {
       const LtcTable::Node& ours = node_at(*fresh, row, column);
-      const LtcTable::Node& theirs = node_at(table, row * step, column * step);
+      const LtcTable::Node& theirs = node_at(table, std::size_t{row} * step, std::size_t{column} * step);
       const double alpha = fresh->alpha_of(row), cosine = fresh->cosine_of(column);
       EXPECT_DOUBLE_EQ(alpha, table.alpha_of(row * step));
       EXPECT_DOUBLE_EQ(cosine, table.cosine_of(column * step));
